@@ -1,0 +1,115 @@
+"""The compiled core: numbers in the file's units and radians, text as JSON.
+
+Nothing here is meant for users; `mainspring` wraps all of it. JSON texts have a fixed key order.
+"""
+
+from collections.abc import Callable
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+class InputError(ValueError):
+    """Bad input. `str(e)` is the whole line `FILE:LINE:COL: error: what, what was expected`."""
+
+def load(model: str, supplement: str | None = None) -> Machine:
+    """Read a model file and its supplement (found beside the model by name when None)."""
+
+@final
+class Machine:
+    """What a person edits: solids, parameters, springs."""
+
+    @property
+    def name(self) -> str: ...
+    def parameters_json(self) -> str:
+        """Return `[{"name", "value", "range": [lo, hi] | null}]` in the order of the text."""
+
+    def compile(self, set: list[tuple[str, float]], pair_clearance: float, keep_axial: bool) -> Mechanism:
+        """Evaluate the shapes with these parameters and analyse them."""
+
+@final
+class Mechanism:
+    """A machine at fixed parameters, analysed."""
+
+    def inspect_json(self) -> str:
+        """Return parts, pairs, subsystems, interactions as one object (docs/guide/json.md).
+
+        Besides the documented keys: `near_misses` `[{"parts": [a, b], "why"}]`, `warnings` `[str]`,
+        `plane` (`{"origin", "x", "y", "normal"}` or null) and `units` (`{"length", "time", ...}`).
+        """
+
+    def drawing_json(self) -> str:
+        """Return the outlines that contact is computed with, in the working plane.
+
+        `{"size", "parts": [{"name", "frame", "motion": {"kind": "turn", "center"} |
+        {"kind": "slide", "direction"} | null, "layers": [{"bottom", "top", "loops": [[segment]]}],
+        "gears": [{"center", "radius"}]}], "springs": [{"part", "relaxed", "constant"}]}` with segments
+        `{"kind": "line", "from", "to"}`, `{"kind": "arc", "from", "to", "center", "radius", "convex"}`,
+        `{"kind": "circle", "center", "radius", "convex"}`; material lies to the left; `relaxed` in
+        radians or length.
+        """
+
+    def simulate(
+        self,
+        until: float,
+        *,
+        contact: str = "rigid",
+        rtol: float = 1e-8,
+        positions: list[tuple[str, float]] = ...,
+        velocities: list[tuple[str, float]] = ...,
+        forces: bool = False,
+        max_steps: int | None = None,
+        progress: Callable[[float], bool] | None = None,
+    ) -> Run:
+        """Run to time `until`; `progress(t)` returns False to stop early."""
+
+    def predict(
+        self,
+        *,
+        contact: str = "rigid",
+        rtol: float = 1e-8,
+        positions: list[tuple[str, float]] = ...,
+        velocities: list[tuple[str, float]] = ...,
+        p_confirm: int = 2,
+        p_range_fraction: float = 1e-5,
+        p_ignore: int = 4,
+        p_t_match: float = 0.01,
+        p_s_v_match: float = 0.02,
+        max_minima: int = ...,
+        max_time: float = ...,
+        progress: Callable[[float], bool] | None = None,
+    ) -> Prediction:
+        """Run until it is known what repeats (Gelsey 1995, Algorithm 12, corrected)."""
+
+@final
+class Run:
+    """A simulated stretch of time with its dense motion."""
+
+    @property
+    def parts(self) -> list[str]: ...
+    def json(self, timing: bool) -> str:
+        """Return the object that `simulate --json` prints."""
+
+    def times(self) -> NDArray[np.float64]:
+        """Return the accepted step and event times, `(n,)`."""
+
+    def sample(self, t: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return `q, v`, each `(n, parts)`, at the times `t`, `(n,)`."""
+
+    def contacts_at(self, t: float) -> str:
+        """Return what touches at `t`.
+
+        `[{"parts": [a, b], "points": [[x, y]], "normal": [nx, ny], "force": number | null,
+        "features": [{"part", "layer", "loop", "edge", "corner": bool}]}]`: `edge` counts the segments
+        of that loop as in `drawing_json`; with `corner` the start point of that segment is meant. The
+        normal points from the second part to the first; `force` is what the first part feels along it.
+        """
+
+@final
+class Prediction:
+    """What a machine will do, and the simulated stretch this is based on."""
+
+    def json(self) -> str:
+        """Return the object that `predict --json` prints."""
+
+    def run(self) -> Run: ...

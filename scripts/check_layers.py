@@ -1,0 +1,58 @@
+"""Check that every crate depends only on crates to its left in the path of the data.
+
+The order is that of docs/architecture.md; `cspace` and `dynamics` may never see each other.
+"""
+
+import json
+import subprocess
+import sys
+
+ALLOWED: dict[str, set[str]] = {
+    "mainspring-geometry": set(),
+    "mainspring-model": {"mainspring-geometry"},
+    "mainspring-mechanism": {"mainspring-geometry", "mainspring-model"},
+    "mainspring-dynamics": {"mainspring-geometry", "mainspring-model", "mainspring-mechanism"},
+    "mainspring-behavior": {
+        "mainspring-geometry",
+        "mainspring-model",
+        "mainspring-mechanism",
+        "mainspring-dynamics",
+    },
+    "mainspring": {
+        "mainspring-geometry",
+        "mainspring-model",
+        "mainspring-mechanism",
+        "mainspring-dynamics",
+        "mainspring-behavior",
+    },
+    "mainspring-python": {"mainspring"},
+}
+
+
+def crates() -> list[dict[str, object]]:
+    """Return the workspace's packages as cargo describes them."""
+    command = ["cargo", "metadata", "--no-deps", "--format-version", "1", "--offline"]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    packages: list[dict[str, object]] = json.loads(text)["packages"]
+    return packages
+
+
+def faults() -> list[str]:
+    """Return one sentence for each dependency that points the wrong way."""
+    found = []
+    for package in crates():
+        name = str(package["name"])
+        if name not in ALLOWED:
+            found.append(f"crate {name} has no place in the order of layers")
+            continue
+        dependencies = package["dependencies"]
+        assert isinstance(dependencies, list)
+        used = {d["name"] for d in dependencies if d["name"].startswith("mainspring")}
+        found += [f"{name} must not depend on {bad}" for bad in sorted(used - ALLOWED[name] - {name})]
+    return found
+
+
+if __name__ == "__main__":
+    problems = faults()
+    print("\n".join(problems) or "crate layers: in order")
+    sys.exit(bool(problems))
