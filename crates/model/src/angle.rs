@@ -1,0 +1,61 @@
+//! Degrees, and operations whose real part is the same to the last bit over numbers and dual numbers.
+
+use mainspring_geometry::{Axis, Vec3};
+use mainspring_geometry::{Rigid3, Scalar};
+use std::f64::consts::PI;
+
+/// `value` with its real part replaced by `real`; derivatives kept.
+pub(crate) fn with_real<S: Scalar>(value: S, real: f64) -> S {
+    value - value.re() + real
+}
+
+/// Quotient; a dual number's own division multiplies by the reciprocal, which rounds differently.
+pub(crate) fn quotient<S: Scalar>(a: S, b: S) -> S {
+    with_real(a / b, a.re() / b.re())
+}
+
+/// Sine and cosine of an angle in degrees, exact at multiples of 90°; derivatives are per degree.
+pub(crate) fn sin_cos_degrees<S: Scalar>(angle: S) -> (S, S) {
+    let turn = angle.re() % 360.0;
+    let quarter = (turn / 90.0).round();
+    let (s, c) = (with_real(angle, turn - 90.0 * quarter) * (PI / 180.0)).sin_cos();
+    // 0 − x rather than −x: no negative zeros in rotation matrices.
+    let zero = S::constant(0.0);
+    match (quarter as i64).rem_euclid(4) {
+        0 => (s, c),
+        1 => (c, zero - s),
+        2 => (zero - s, zero - c),
+        _ => (zero - c, s),
+    }
+}
+
+/// The angle of the point (x, y) in degrees; 0 at the origin, with derivative 0.
+pub(crate) fn atan2_degrees<S: Scalar>(y: S, x: S) -> S {
+    if y.re() == 0.0 && x.re() == 0.0 {
+        return S::constant(0.0);
+    }
+    let real = y.re().atan2(x.re()) * (180.0 / PI);
+    with_real(y.atan2(x) * (180.0 / PI), real)
+}
+
+/// Right-handed rotation by `angle` degrees about an axis through the origin, exact at multiples of 90°.
+pub(crate) fn rotation<S: Scalar>(axis: Axis, angle: S) -> Rigid3<S> {
+    let (s, c) = sin_cos_degrees(angle);
+    let (o, l) = (S::constant(0.0), S::constant(1.0));
+    let columns = match axis {
+        Axis::X => [Vec3::new(l, o, o), Vec3::new(o, c, s), Vec3::new(o, o - s, c)],
+        Axis::Y => [Vec3::new(c, o, o - s), Vec3::new(o, l, o), Vec3::new(s, o, c)],
+        Axis::Z => [Vec3::new(c, s, o), Vec3::new(o - s, c, o), Vec3::new(o, o, l)],
+    };
+    Rigid3 { columns, ..Rigid3::identity() }
+}
+
+/// Translation by `length` along an axis.
+pub(crate) fn translation<S: Scalar>(axis: Axis, length: S) -> Rigid3<S> {
+    let o = S::constant(0.0);
+    Rigid3::translation(match axis {
+        Axis::X => Vec3::new(length, o, o),
+        Axis::Y => Vec3::new(o, length, o),
+        Axis::Z => Vec3::new(o, o, length),
+    })
+}

@@ -1,0 +1,28 @@
+//! What the reader accepts at most. Each limit is refused by name, at the place where it is passed.
+
+/// Size of a file in bytes: 16 MiB.
+pub const FILE_BYTES: usize = 16 * 1024 * 1024;
+
+/// Primitives in all parts together, after named solids and symmetric unions are expanded.
+pub const PRIMITIVES: usize = 10_000;
+
+/// Open brackets inside each other.
+pub const NESTING: usize = 200;
+
+/// Numbers, names, operators and functions in one numeric expression.
+pub const EXPRESSION_NODES: usize = 1_000;
+
+/// Definitions in a file; keeps the memory of a file of 16 MiB below 1 GiB.
+pub const DEFINITIONS: usize = 100_000;
+
+/// Placements (`at` groups and copies of symmetric unions) after expansion: bounds the work of finding all poses.
+pub const PLACEMENTS: usize = 1_000_000;
+
+/// Single motions (`movx=…`) written in a file; each is an expression of its own.
+pub const MOTIONS: usize = 1_000_000;
+
+/// Characters of a name.
+pub const NAME_CHARACTERS: usize = 100;
+
+/// Characters of a written number: enough for every binary64 number to 17 digits, with room.
+pub const NUMBER_CHARACTERS: usize = 100;

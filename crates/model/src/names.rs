@@ -1,0 +1,62 @@
+//! Names: finding the one that was probably meant, and listing those that exist.
+
+/// Names shown in a list of what exists.
+const LISTED: usize = 8;
+
+/// Longest name that is compared; longer ones are no slips of the pen.
+const COMPARED: usize = 40;
+
+/// The name nearest to `wanted` in any letter case, if it differs by at most a third of its letters.
+pub(crate) fn nearest<'a>(known: impl IntoIterator<Item = &'a str>, wanted: &str) -> Option<&'a str> {
+    if wanted.len() > COMPARED {
+        return None;
+    }
+    let wanted = wanted.to_ascii_lowercase();
+    let allowed = (wanted.len() / 3).max(1);
+    let mut best: Option<(usize, &str)> = None;
+    for name in known.into_iter().filter(|n| n.len().abs_diff(wanted.len()) <= allowed) {
+        let distance = edits(&wanted, &name.to_ascii_lowercase());
+        if distance <= allowed && best.is_none_or(|(d, _)| distance < d) {
+            best = Some((distance, name));
+        }
+    }
+    best.map(|(_, name)| name)
+}
+
+/// What to expect in place of `wanted`: the nearest name, or a list.
+pub(crate) fn one_of(known: &[&str], wanted: &str) -> String {
+    if let Some(name) = nearest(known.iter().copied(), wanted) {
+        return format!("perhaps `{name}`");
+    }
+    list(known)
+}
+
+/// `one of a, b, c`, shortened.
+pub(crate) fn list(known: &[&str]) -> String {
+    match known {
+        [] => "none, as there is none".to_string(),
+        [only] => format!("`{only}`"),
+        _ => {
+            let shown: Vec<String> = known.iter().take(LISTED).map(|n| format!("`{n}`")).collect();
+            let more = known.len().saturating_sub(LISTED);
+            let rest = if more > 0 { format!(" or {more} more") } else { String::new() };
+            format!("one of {}{rest}", shown.join(", "))
+        }
+    }
+}
+
+/// Number of letters to insert, delete or replace (Levenshtein distance).
+fn edits(a: &str, b: &str) -> usize {
+    let b = b.as_bytes();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let replaced = corner + usize::from(x != *y);
+            corner = row[j + 1];
+            row[j + 1] = replaced.min(corner + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
