@@ -1,0 +1,205 @@
+//! Which bodies can ever touch, by the regions their features sweep (Gelsey 1995, Sec. 2.1.4).
+
+use crate::feature::{Feature, features};
+use crate::gap::GapKind;
+use crate::placed::MAX_CHAIN;
+use crate::source::DirectSearch;
+use crate::system::{Body, Coordinate, Motion};
+use crate::tree::FeatureTree;
+use mainspring_geometry::{CurveId, Vec2};
+
+/// Curves of two bodies that are no contact features of this pair: surfaces of their lower pair, gear envelopes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Exclusion {
+    pub bodies: (usize, usize),
+    pub curves: Vec<CurveId>,
+}
+
+/// Two bodies that may come into contact.
+#[derive(Clone, Debug)]
+pub struct Interaction {
+    pub bodies: (usize, usize),
+    /// Trees over the features of either body that can reach the other.
+    pub trees: (FeatureTree, FeatureTree),
+    /// Greatest lever arms: how far a feature moves at most per unit of a joint's own position, by joint of the
+    /// chain. For the first and the second body.
+    pub levers: ([f64; MAX_CHAIN], [f64; MAX_CHAIN]),
+    height_tolerance: f64,
+}
+
+impl Interaction {
+    /// The kind of contact of two features, or None if they never lie in a common layer.
+    pub fn kind(&self, _ids: (usize, usize), features: (&Feature, &Feature)) -> Option<GapKind> {
+        let kind = GapKind::of(features.0, features.1)?;
+        features.0.shares_height(features.1, self.height_tolerance).then_some(kind)
+    }
+}
+
+/// Everything contact and motion need to know of a mechanism.
+#[derive(Clone, Debug)]
+pub struct System {
+    pub coordinates: Vec<Coordinate>,
+    pub bodies: Vec<Body>,
+    /// Features of each body.
+    pub features: Vec<Vec<Feature>>,
+    pub interactions: Vec<Interaction>,
+    /// The machine's size in the file's length: tolerances of contact are relative to it.
+    pub size: f64,
+}
+
+impl System {
+    /// Finds features and possible interactions. Bodies on the same coordinates never interact; neither do
+    /// features named in an exclusion of their pair.
+    pub fn new(coordinates: Vec<Coordinate>, bodies: Vec<Body>, exclusions: &[Exclusion], size: f64) -> Self {
+        let features: Vec<Vec<Feature>> = bodies.iter().map(|b| features(&b.outline, size)).collect();
+        let mut interactions = Vec::new();
+        for i in 0..bodies.len() {
+            for j in i + 1..bodies.len() {
+                if bodies[i].chain == bodies[j].chain {
+                    continue;
+                }
+                let excluded: Vec<CurveId> = exclusions
+                    .iter()
+                    .filter(|e| e.bodies == (i, j) || e.bodies == (j, i))
+                    .flat_map(|e| e.curves.iter().copied())
+                    .collect();
+                interactions.extend(interaction((i, j), &bodies, &features, &excluded, size));
+            }
+        }
+        Self { coordinates, bodies, features, interactions, size }
+    }
+
+    /// The direct search for contacts.
+    pub fn direct_search(&self) -> DirectSearch<'_> {
+        DirectSearch { interactions: &self.interactions, features: &self.features }
+    }
+}
+
+fn interaction(
+    pair: (usize, usize),
+    bodies: &[Body],
+    features: &[Vec<Feature>],
+    excluded: &[CurveId],
+    size: f64,
+) -> Option<Interaction> {
+    let (a, b) = (&bodies[pair.0], &bodies[pair.1]);
+    let (fa, fb) = (&features[pair.0], &features[pair.1]);
+    let height_tolerance = 1e-9 * size;
+    let usable = |f: &Feature| !is_excluded(f, excluded);
+    let swept = |body: &Body, list: &[Feature]| -> Vec<Option<Swept>> {
+        list.iter().map(|f| usable(f).then(|| Swept::new(body, f))).collect()
+    };
+    let (sa, sb) = (swept(a, fa), swept(b, fb));
+    let meets = |i: usize, j: usize| {
+        let (Some(p), Some(q)) = (&sa[i], &sb[j]) else { return false };
+        GapKind::of(&fa[i], &fb[j]).is_some()
+            && fa[i].shares_height(&fb[j], height_tolerance)
+            && p.meets(q, 1e-9 * size)
+    };
+    let chosen_a: Vec<usize> = (0..fa.len()).filter(|&i| (0..fb.len()).any(|j| meets(i, j))).collect();
+    if chosen_a.is_empty() {
+        return None;
+    }
+    let chosen_b: Vec<usize> = (0..fb.len()).filter(|&j| chosen_a.iter().any(|&i| meets(i, j))).collect();
+    let levers = (levers(a, fa, &chosen_a), levers(b, fb, &chosen_b));
+    let trees = (FeatureTree::new(fa, chosen_a), FeatureTree::new(fb, chosen_b));
+    Some(Interaction { bodies: pair, trees, levers, height_tolerance })
+}
+
+/// A curve is excluded when its owner or an alias is; a corner when both of its sides are.
+fn is_excluded(feature: &Feature, excluded: &[CurveId]) -> bool {
+    let hit = |curves: &[CurveId]| curves.iter().any(|c| excluded.contains(c));
+    hit(&feature.curves[0]) && (feature.name.next.is_none() || hit(&feature.curves[1]))
+}
+
+/// The region a feature can sweep: all of it is inside.
+enum Swept {
+    Disc {
+        center: Vec2,
+        radius: f64,
+    },
+    Ring {
+        center: Vec2,
+        inner: f64,
+        outer: f64,
+    },
+    /// Between two parallel lines: `low ≤ normal · p ≤ high`.
+    Band {
+        normal: Vec2,
+        low: f64,
+        high: f64,
+    },
+    Everywhere,
+}
+
+impl Swept {
+    fn new(body: &Body, feature: &Feature) -> Self {
+        let (center, radius) = (feature.center, feature.radius);
+        match body.chain.as_slice() {
+            [] => Swept::Disc { center, radius },
+            [joint] => match joint.motion {
+                Motion::Turn { center: axis } => {
+                    let (inner, outer) = feature.shape.distances_from(axis);
+                    Swept::Ring { center: axis, inner, outer }
+                }
+                Motion::Slide { direction } => {
+                    let normal = direction.perp();
+                    let at = normal.dot(center);
+                    Swept::Band { normal, low: at - radius, high: at + radius }
+                }
+            },
+            _ => Swept::Everywhere,
+        }
+    }
+
+    fn meets(&self, other: &Swept, slack: f64) -> bool {
+        use Swept::{Band, Disc, Everywhere, Ring};
+        match (self, other) {
+            (Everywhere, _) | (_, Everywhere) => true,
+            (Band { normal, low, high }, Band { normal: other_normal, low: l, high: h }) => {
+                // Parallel bands meet if their intervals do; others always cross.
+                let along = normal.dot(*other_normal);
+                if normal.cross(*other_normal).abs() > 1e-12 {
+                    return true;
+                }
+                let (l, h) = if along > 0.0 { (*l, *h) } else { (-*h, -*l) };
+                *low <= h + slack && l <= *high + slack
+            }
+            (Band { normal, low, high }, ring) | (ring, Band { normal, low, high }) => {
+                let (center, _, outer) = ring.ring();
+                let at = normal.dot(center);
+                at + outer >= low - slack && at - outer <= high + slack
+            }
+            (Disc { .. } | Ring { .. }, Disc { .. } | Ring { .. }) => {
+                let ((c, inner_c, outer_c), (d, inner_d, outer_d)) = (self.ring(), other.ring());
+                let apart = (c - d).norm();
+                apart <= outer_c + outer_d + slack
+                    && apart + outer_d >= inner_c - slack
+                    && apart + outer_c >= inner_d - slack
+            }
+        }
+    }
+
+    fn ring(&self) -> (Vec2, f64, f64) {
+        match *self {
+            Swept::Disc { center, radius } => (center, 0.0, radius),
+            Swept::Ring { center, inner, outer } => (center, inner, outer),
+            _ => (Vec2::default(), 0.0, f64::INFINITY),
+        }
+    }
+}
+
+/// How far features move per unit of each joint's position: distance from the axis for a turn (through the later
+/// joints of the chain, as modelled), 1 for a slide.
+fn levers(body: &Body, features: &[Feature], chosen: &[usize]) -> [f64; MAX_CHAIN] {
+    let mut levers = [0.0; MAX_CHAIN];
+    for (lever, joint) in levers.iter_mut().zip(&body.chain) {
+        *lever = match joint.motion {
+            Motion::Turn { center } => {
+                chosen.iter().map(|&i| features[i].shape.distances_from(center).1).fold(0.0, f64::max)
+            }
+            Motion::Slide { .. } => 1.0,
+        };
+    }
+    levers
+}

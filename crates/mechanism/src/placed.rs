@@ -1,0 +1,145 @@
+//! Bodies at joint positions: poses, and how fast and along what their points move.
+//!
+//! For a point p fixed on the body and joints j along its chain, `∂p/∂q_j = r_j (p − o_j)^⊥` for a turn about o_j
+//! and `r_j d_j` for a slide along d_j, where o_j and d_j are carried by the joints before j.
+
+use crate::system::{Body, Motion, Pose};
+use mainspring_geometry::Vec2;
+
+/// Most joints between a body and the frame.
+pub const MAX_CHAIN: usize = 4;
+/// Most coordinates one gap can depend on: two chains.
+pub const MAX_ROW: usize = 2 * MAX_CHAIN;
+
+/// A sparse row of a Jacobian, `∂g/∂q`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Row {
+    pub count: usize,
+    pub coordinate: [usize; MAX_ROW],
+    pub value: [f64; MAX_ROW],
+}
+
+impl Row {
+    /// Adds `value` at `coordinate`.
+    pub fn add(&mut self, coordinate: usize, value: f64) {
+        for k in 0..self.count {
+            if self.coordinate[k] == coordinate {
+                self.value[k] += value;
+                return;
+            }
+        }
+        self.coordinate[self.count] = coordinate;
+        self.value[self.count] = value;
+        self.count += 1;
+    }
+
+    pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (0..self.count).map(|k| (self.coordinate[k], self.value[k]))
+    }
+
+    pub fn dot(&self, x: &[f64]) -> f64 {
+        self.entries().map(|(i, g)| g * x[i]).sum()
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+struct PlacedJoint {
+    coordinate: usize,
+    ratio: f64,
+    turns: bool,
+    /// The centre of a turn or the direction of a slide, in the machine.
+    at: Vec2,
+}
+
+/// A body at given joint positions.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    pub pose: Pose,
+    joints: [Option<PlacedJoint>; MAX_CHAIN],
+}
+
+/// Velocity of a point, and the part of its acceleration that joint accelerations do not cause.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PointMotion {
+    pub velocity: Vec2,
+    pub bias: Vec2,
+}
+
+impl Placed {
+    pub fn new(body: &Body, q: &[f64]) -> Self {
+        let mut placed = Self { pose: Pose::identity(), joints: [None; MAX_CHAIN] };
+        for (slot, joint) in placed.joints.iter_mut().zip(&body.chain) {
+            let at = match joint.motion {
+                Motion::Turn { center } => placed.pose.apply(center),
+                Motion::Slide { direction } => placed.pose.rotate(direction),
+            };
+            let turns = matches!(joint.motion, Motion::Turn { .. });
+            *slot = Some(PlacedJoint { coordinate: joint.coordinate, ratio: joint.ratio, turns, at });
+            let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
+            placed.pose = placed.pose.then_after(&step);
+        }
+        placed
+    }
+
+    fn joints(&self) -> impl Iterator<Item = &PlacedJoint> {
+        self.joints.iter().map_while(Option::as_ref)
+    }
+
+    /// Adds `sign · n · ∂p/∂q` to a row, for the body's point now at `p`.
+    pub fn add_to_row(&self, row: &mut Row, n: Vec2, p: Vec2, sign: f64) {
+        for j in self.joints() {
+            let along = if j.turns { n.dot((p - j.at).perp()) } else { n.dot(j.at) };
+            row.add(j.coordinate, sign * j.ratio * along);
+        }
+    }
+
+    /// Rate of turning of the body, radians per unit of time.
+    pub fn turning(&self, v: &[f64]) -> f64 {
+        self.joints().filter(|j| j.turns).map(|j| j.ratio * v[j.coordinate]).sum()
+    }
+
+    /// Velocity of the body's point now at `p`.
+    pub fn velocity(&self, p: Vec2, v: &[f64]) -> Vec2 {
+        self.joints().fold(Vec2::default(), |sum, j| {
+            let rate = j.ratio * v[j.coordinate];
+            sum + if j.turns { (p - j.at).perp() } else { j.at } * rate
+        })
+    }
+
+    /// Velocity and bias acceleration of the body's point now at `p`.
+    pub fn motion(&self, p: Vec2, v: &[f64]) -> PointMotion {
+        let velocity = self.velocity(p, v);
+        let mut bias = Vec2::default();
+        let mut carried = Carrier::default();
+        for j in self.joints() {
+            let rate = j.ratio * v[j.coordinate];
+            if j.turns {
+                let center = carried.velocity_at(j.at);
+                bias = bias + (velocity - center).perp() * rate;
+                carried.turn(j.at, rate);
+            } else {
+                bias = bias + j.at.perp() * (rate * carried.turning);
+                carried.linear = carried.linear + j.at * rate;
+            }
+        }
+        PointMotion { velocity, bias }
+    }
+}
+
+/// Velocity field of the joints passed so far: `linear + turning · p^⊥`.
+#[derive(Default)]
+struct Carrier {
+    linear: Vec2,
+    turning: f64,
+}
+
+impl Carrier {
+    fn velocity_at(&self, p: Vec2) -> Vec2 {
+        self.linear + p.perp() * self.turning
+    }
+
+    fn turn(&mut self, center: Vec2, rate: f64) {
+        self.linear = self.linear - center.perp() * rate;
+        self.turning += rate;
+    }
+}
