@@ -1,0 +1,140 @@
+"""What a mechanism will do for ever (Gelsey 1995, Algorithm 12)."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from mainspring.machine import Mechanism
+from mainspring.result import Result, frozen, pairs_of, parse
+from mainspring.simulation import Simulation, result_of
+
+MAX_MINIMA = 1000
+MAX_TIME = 100_000.0
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """What repeats: `minima` M, `duration` D, `change` of every coordinate by part.
+
+    `change[part]` has `position` and `velocity`, in radians or the file's length.
+    """
+
+    minima: int
+    duration: float
+    change: Mapping[str, Mapping[str, float]]
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """A pattern that was tried: its number of minima, when it was formed, when and why it fell."""
+
+    minima: int
+    formed: float
+    fell: float | None
+    why: str | None
+
+
+@dataclass(frozen=True)
+class Prediction(Result):
+    """What will happen; `status` is `repeats`, `comes_to_rest`, `no_pattern` or `stopped`.
+
+    Attributes
+    ----------
+    pattern
+        None unless it repeats.
+    starts
+        Where the pattern (or the rest) starts: `t`, `positions`, `velocities`.
+    simulated_seconds
+        How much of the motion had to be simulated to know.
+    hypotheses
+        Everything that was tried, in order.
+    sentences
+        The answer in plain words, angles in degrees.
+    simulation
+        The simulated stretch that the answer rests on.
+    """
+
+    pattern: Pattern | None
+    starts: Mapping[str, Any] | None
+    simulated_seconds: float
+    hypotheses: tuple[Hypothesis, ...]
+    sentences: tuple[str, ...]
+    simulation: Simulation
+
+    def _sentences(self) -> Iterable[str]:
+        return self.sentences
+
+
+def _pattern(o: dict[str, Any] | None) -> Pattern | None:
+    if not o:
+        return None
+    return Pattern(o["minima"], o["duration"], frozen({k: frozen(v) for k, v in o["change"].items()}))
+
+
+def predict(
+    mechanism: Mechanism,
+    *,
+    contact: str = "rigid",
+    rtol: float = 1e-8,
+    positions: Mapping[str, float] | None = None,
+    velocities: Mapping[str, float] | None = None,
+    confirm: int = 2,
+    range_fraction: float = 1e-5,
+    ignore: int = 4,
+    time_match: float = 0.01,
+    state_match: float = 0.02,
+    max_minima: int = MAX_MINIMA,
+    max_time: float = MAX_TIME,
+    progress: Callable[[float], bool] | None = None,
+) -> Prediction:
+    """Simulate just long enough to know what repeats, or that nothing does.
+
+    Parameters
+    ----------
+    contact, rtol, positions, velocities, progress
+        As for `simulate`.
+    confirm
+        P_confirm: a pattern must hold for so many more repetitions.
+    range_fraction
+        P_range_fraction: minima count below this fraction of the largest kinetic energy so far.
+    ignore
+        P_ignore: so many first minima are start-up and do not count.
+    time_match
+        P_t_match: allowed difference of durations, relative to the pattern's.
+    state_match
+        P_s_v_match: allowed difference of changes, relative to the range within one pattern.
+    max_minima, max_time
+        Give up there, with status `no_pattern`.
+
+    Notes
+    -----
+    Gelsey 1995, Algorithm 12, with the corrections told in docs/theory/patterns.md.
+    """
+    core = mechanism._inner.predict(
+        contact=contact,
+        rtol=float(rtol),
+        positions=pairs_of(positions),
+        velocities=pairs_of(velocities),
+        p_confirm=confirm,
+        p_range_fraction=range_fraction,
+        p_ignore=ignore,
+        p_t_match=time_match,
+        p_s_v_match=state_match,
+        max_minima=max_minima,
+        max_time=float(max_time),
+        progress=progress,
+    )
+    text = core.json()
+    o = parse(text)
+    simulation = result_of(core.run())
+    return Prediction(
+        status=o["status"],
+        stats=simulation.stats,
+        _text=text,
+        pattern=_pattern(o["pattern"]),
+        starts=frozen(o["starts"]) if o["starts"] else None,
+        simulated_seconds=o["simulated_seconds"],
+        hypotheses=tuple(Hypothesis(h["minima"], h["formed"], h["fell"], h["why"]) for h in o["hypotheses"]),
+        sentences=tuple(o["sentences"]),
+        simulation=simulation,
+    )

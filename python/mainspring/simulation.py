@@ -1,0 +1,200 @@
+"""The motion of a mechanism over a stretch of time."""
+
+import json
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mainspring import _core
+from mainspring.machine import Mechanism
+from mainspring.result import Result, frozen, pairs_of, parse
+
+Floats = NDArray[np.float64]
+
+
+class State(NamedTuple):
+    """Positions `q` and velocities `v`, each `(parts,)` or `(n, parts)`; radians or the file's length."""
+
+    q: Floats
+    v: Floats
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A motion, known at every instant.
+
+    Attributes
+    ----------
+    parts
+        The moving parts: the order of the columns.
+    t
+        Accepted step and event times, `(n,)`.
+    q, v
+        Positions and velocities there, `(n, parts)`; after the blow at an impact.
+    """
+
+    parts: tuple[str, ...]
+    t: Floats = field(repr=False)
+    q: Floats = field(repr=False)
+    v: Floats = field(repr=False)
+    _run: _core.Run = field(repr=False)
+
+    def at(self, t: ArrayLike) -> State:
+        """Evaluate the motion at any times within the run, to the accuracy of the run itself.
+
+        Parameters
+        ----------
+        t
+            One time or `(m,)` times.
+
+        Returns
+        -------
+        State
+            `q` and `v`, `(parts,)` for one time, `(m, parts)` for several.
+        """
+        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        q, v = self._run.sample(times)
+        return State(q, v) if np.ndim(t) else State(q[0], v[0])
+
+    def contacts(self, t: float) -> list[dict[str, Any]]:
+        """Return what touches at an instant: parts, points, normal and force (docs/guide/json.md)."""
+        found: list[dict[str, Any]] = json.loads(self._run.contacts_at(float(t)))
+        return found
+
+
+@dataclass(frozen=True)
+class Event:
+    """An `impact`, `close` or `release` of a contact; `impulse` in mass units times velocity units."""
+
+    t: float
+    kind: str
+    parts: tuple[str, ...]
+    impulse: float | None
+    moving_together: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The energy account of a run; losses positive.
+
+    `residual` is (initial - final - friction - impacts) / max(friction + impacts, kinetic_max).
+    """
+
+    initial: float
+    final: float
+    friction: float
+    impacts: float
+    kinetic_max: float
+    residual: float
+
+
+@dataclass(frozen=True)
+class Simulation(Result):
+    """A simulated stretch; `status` is `complete`, `at_rest`, `step_limit` or `stopped`.
+
+    Attributes
+    ----------
+    t
+        Where it ended.
+    positions, velocities
+        The state there, by part; radians or the file's length.
+    kinetic_energy_minima
+        Times of the minima that Algorithm 12 of Gelsey 1995 would count.
+    """
+
+    t: float
+    positions: Mapping[str, float]
+    velocities: Mapping[str, float]
+    kinetic_energy_minima: tuple[float, ...]
+    events: tuple[Event, ...]
+    energy: Energy
+    trajectory: Trajectory
+
+    def _sentences(self) -> Iterable[str]:
+        word = self.status.replace("_", " ")
+        yield f"Simulated to {self.t:.6g} s ({word}): {len(self.events)} contact events."
+        yield f"Energy closes to {abs(self.energy.residual):.1e}."
+
+    def to_json(self, *, timing: bool = False) -> str:
+        """Return the JSON object of `mainspring simulate --json`; `timing` adds the seconds it took."""
+        return self.trajectory._run.json(True) if timing else self._text
+
+
+def result_of(run: _core.Run) -> Simulation:
+    """Wrap a run of the core."""
+    text = run.json(False)
+    o = parse(text)
+    t = run.times()
+    q, v = run.sample(t)
+    events = (
+        Event(e["t"], e["kind"], tuple(e["parts"]), e["impulse"], tuple(map(tuple, e["moving_together"])))
+        for e in o["events"]
+    )
+    return Simulation(
+        status=o["status"],
+        stats=frozen(o["stats"]),
+        _text=text,
+        t=o["t"],
+        positions=frozen(o["positions"]),
+        velocities=frozen(o["velocities"]),
+        kinetic_energy_minima=tuple(o["kinetic_energy_minima"]),
+        events=tuple(events),
+        energy=Energy(**o["energy"]),
+        trajectory=Trajectory(tuple(run.parts), t, q, v, run),
+    )
+
+
+def simulate(
+    mechanism: Mechanism,
+    until: float,
+    *,
+    contact: str = "rigid",
+    rtol: float = 1e-8,
+    positions: Mapping[str, float] | None = None,
+    velocities: Mapping[str, float] | None = None,
+    forces: bool = False,
+    max_steps: int | None = None,
+    progress: Callable[[float], bool] | None = None,
+) -> Simulation:
+    """Run a mechanism from t = 0 to `until`.
+
+    Parameters
+    ----------
+    until
+        End of the run, in the file's time unit.
+    contact
+        Contact model: `rigid`.
+    rtol
+        Relative tolerance of states and of contact times.
+    positions, velocities
+        Initial state by part, in radians or the file's length; the others as the supplement says.
+    forces
+        Record contact impulses and forces.
+    max_steps
+        Give up after so many steps, with status `step_limit`; None: the core's own limit.
+    progress
+        Called now and then with the time reached; returning False stops the run (`stopped`).
+
+    Raises
+    ------
+    InputError
+        For an unknown part, or a machine that lacks what a run needs.
+
+    Notes
+    -----
+    Rigid contact: docs/theory/contact-law.md; Gelsey 1995, Appendix A, corrected.
+    """
+    run = mechanism._inner.simulate(
+        float(until),
+        contact=contact,
+        rtol=float(rtol),
+        positions=pairs_of(positions),
+        velocities=pairs_of(velocities),
+        forces=forces,
+        max_steps=max_steps,
+        progress=progress,
+    )
+    return result_of(run)
