@@ -1,12 +1,26 @@
 //! Geometry of machines: points, rigid motions, solids, and planar outlines as exact recipes.
 
+mod arrangement;
+mod bounds;
+mod chain;
+mod classes;
+mod classify;
+mod curve;
+mod find;
 mod outline;
+mod recipe;
 mod rigid;
 mod scalar;
+mod section;
+mod segment;
 mod solid;
+mod tree;
 mod vector;
 
+pub use bounds::Bounds3;
+pub use curve::{Curve, Root};
 pub use outline::{CurveId, Edge, Layer, Loop, Outline, Segment, Turn};
+pub use recipe::{Corner, EdgeRecipe, LayerRecipe, LoopRecipe, OutlineError, OutlineRecipe};
 pub use rigid::{Axis, Rigid3};
 pub use scalar::Scalar;
 pub use solid::{Csg, CsgOp, Primitive, Shape};

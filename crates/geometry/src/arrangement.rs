@@ -1,0 +1,291 @@
+//! Cuts the curve classes of one slab at their common points.
+//!
+//! Common points are computed between representatives of classes, only where their faces come near each
+//! other; points within the tolerance become one vertex.
+
+use crate::classes::{Classes, Tolerance};
+use crate::section::Face;
+use crate::{OutlineError, Vec2};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+use std::collections::{BTreeMap, HashMap};
+use std::f64::consts::{PI, TAU};
+
+/// The work one outline may cost, so that hostile input ends in an error and not in a wait.
+#[derive(Debug)]
+pub(crate) struct Budget {
+    /// Pairs of neighbouring curves still allowed.
+    pub pairs: usize,
+    /// Point-in-primitive tests still allowed.
+    pub probes: usize,
+}
+
+impl Budget {
+    pub const PAIRS: usize = 4_000_000;
+    const PROBES: usize = 100_000_000;
+
+    pub fn new() -> Self {
+        Self { pairs: Self::PAIRS, probes: Self::PROBES }
+    }
+
+    pub fn spend_pairs(&mut self, n: usize) -> Result<(), OutlineError> {
+        self.pairs = self.pairs.checked_sub(n).ok_or(OutlineError::TooComplex)?;
+        Ok(())
+    }
+
+    pub fn spend_probes(&mut self, n: usize) -> Result<(), OutlineError> {
+        self.probes = self.probes.checked_sub(n).ok_or(OutlineError::TooComplex)?;
+        Ok(())
+    }
+}
+
+/// A face's stretch of its class, in the parameter of the class curve.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    lo: f64,
+    hi: f64,
+    face: u32,
+}
+
+/// Overlapping stretches of one class joined together.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    class: u32,
+    lo: f64,
+    hi: f64,
+    circle: bool,
+}
+
+/// A piece of a class between two neighbouring vertices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SubEdge {
+    pub class: u32,
+    /// Vertices in the class's own direction; `None` for a circle nobody cuts.
+    pub ends: Option<[u32; 2]>,
+    pub middle: Vec2,
+}
+
+/// The curves of a slab and the vertices that cut them.
+#[derive(Debug)]
+pub(crate) struct Arrangement {
+    pub vertices: Vec<Vec2>,
+    stretches: BTreeMap<u32, Vec<Stretch>>,
+    /// Parameters and vertices of every class, ascending.
+    cuts: BTreeMap<u32, Vec<(f64, u32)>>,
+}
+
+impl Arrangement {
+    /// Of the faces listed in `members`.
+    pub fn new(
+        faces: &[Face],
+        members: &[u32],
+        classes: &Classes,
+        tolerance: &Tolerance,
+        budget: &mut Budget,
+    ) -> Result<Self, OutlineError> {
+        budget.spend_pairs(members.len())?;
+        let stretches = stretches(faces, members, classes);
+        let runs = runs(&stretches, classes);
+        let points = crossings(&runs, classes, tolerance, budget)?;
+        let (vertices, of) = merge_points(&points, tolerance.length);
+        let mut cuts: BTreeMap<u32, Vec<(f64, u32)>> = BTreeMap::new();
+        for (vertex, point) in of.iter().zip(&points) {
+            for class in point.classes {
+                let t = classes.curves[class as usize].parameter(vertices[*vertex as usize]);
+                cuts.entry(class).or_default().push((t, *vertex));
+            }
+        }
+        for list in cuts.values_mut() {
+            list.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            list.dedup_by_key(|c| c.1);
+        }
+        Ok(Self { vertices, stretches, cuts })
+    }
+
+    /// Visits every sub-edge with the faces that lie along it.
+    pub fn visit(
+        &self,
+        classes: &Classes,
+        mut visit: impl FnMut(SubEdge, &[u32]) -> Result<(), OutlineError>,
+    ) -> Result<(), OutlineError> {
+        for (&class, stretches) in &self.stretches {
+            let cuts = self.cuts.get(&class).map_or(&[][..], |c| c);
+            let curve = &classes.curves[class as usize];
+            let circle = matches!(curve, crate::Curve::Circle { .. });
+            let along = stretches.iter().map(|s| s.face).collect::<Vec<_>>();
+            let mut sweep = Sweep { stretches, next: 0, open: Vec::new(), faces: Vec::new() };
+            for (ends, middle) in pieces(cuts, circle) {
+                let along = if circle { &along } else { sweep.at(middle) };
+                if !along.is_empty() {
+                    visit(SubEdge { class, ends, middle: curve.point(middle) }, along)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The intervals between neighbouring cuts, with the parameter of their middle.
+fn pieces(cuts: &[(f64, u32)], circle: bool) -> Vec<(Option<[u32; 2]>, f64)> {
+    let mut list: Vec<_> =
+        cuts.windows(2).map(|w| (Some([w[0].1, w[1].1]), 0.5 * (w[0].0 + w[1].0))).collect();
+    match (circle, cuts.first(), cuts.last()) {
+        (true, Some(first), Some(last)) => {
+            list.push((Some([last.1, first.1]), 0.5 * (last.0 + first.0 + TAU)));
+        }
+        (true, ..) => list.push((None, 0.0)),
+        _ => {}
+    }
+    list
+}
+
+/// Which stretches hold a parameter that only grows.
+struct Sweep<'a> {
+    stretches: &'a [Stretch],
+    next: usize,
+    open: Vec<Stretch>,
+    faces: Vec<u32>,
+}
+
+impl Sweep<'_> {
+    fn at(&mut self, t: f64) -> &[u32] {
+        self.open.retain(|s| s.hi > t);
+        while let Some(s) = self.stretches.get(self.next).filter(|s| s.lo < t) {
+            if s.hi > t {
+                self.open.push(*s);
+            }
+            self.next += 1;
+        }
+        self.faces.clear();
+        self.faces.extend(self.open.iter().map(|s| s.face));
+        &self.faces
+    }
+}
+
+fn stretches(faces: &[Face], members: &[u32], classes: &Classes) -> BTreeMap<u32, Vec<Stretch>> {
+    let mut by_class: BTreeMap<u32, Vec<Stretch>> = BTreeMap::new();
+    for &face in members {
+        let class = classes.of[face as usize];
+        let curve = &classes.curves[class as usize];
+        let (a, b) = match faces[face as usize].ends {
+            Some([a, b]) => (curve.parameter(a), curve.parameter(b)),
+            None => (-PI, PI),
+        };
+        by_class.entry(class).or_default().push(Stretch { lo: a.min(b), hi: a.max(b), face });
+    }
+    for list in by_class.values_mut() {
+        list.sort_by(|a, b| a.lo.total_cmp(&b.lo).then(a.face.cmp(&b.face)));
+    }
+    by_class
+}
+
+fn runs(stretches: &BTreeMap<u32, Vec<Stretch>>, classes: &Classes) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (&class, list) in stretches {
+        let circle = matches!(classes.curves[class as usize], crate::Curve::Circle { .. });
+        for s in list {
+            match runs.last_mut() {
+                Some(run) if run.class == class && s.lo <= run.hi => run.hi = run.hi.max(s.hi),
+                _ => runs.push(Run { class, lo: s.lo, hi: s.hi, circle }),
+            }
+        }
+    }
+    runs
+}
+
+/// A point that two classes share.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    at: Vec2,
+    classes: [u32; 2],
+}
+
+fn crossings(
+    runs: &[Run],
+    classes: &Classes,
+    tolerance: &Tolerance,
+    budget: &mut Budget,
+) -> Result<Vec<Crossing>, OutlineError> {
+    let boxes: Vec<_> = runs.iter().map(|r| r.bounds(classes, tolerance.length)).collect();
+    let tree = RTree::bulk_load(
+        (0u32..).zip(&boxes).map(|(i, b)| GeomWithData::new(Rectangle::from_aabb(*b), i)).collect(),
+    );
+    let mut found = Vec::new();
+    let mut near = Vec::new();
+    for (i, run) in (0u32..).zip(runs) {
+        near.clear();
+        for other in tree.locate_in_envelope_intersecting(boxes[i as usize]) {
+            budget.spend_pairs(usize::from(other.data > i))?;
+            near.push(other.data);
+        }
+        near.retain(|&j| j > i && runs[j as usize].class != run.class);
+        near.sort_unstable();
+        near.iter().for_each(|&j| run.cross(&runs[j as usize], classes, tolerance, &mut found));
+    }
+    Ok(found)
+}
+
+impl Run {
+    fn bounds(&self, classes: &Classes, margin: f64) -> AABB<[f64; 2]> {
+        let curve = &classes.curves[self.class as usize];
+        let (a, b) = match *curve {
+            crate::Curve::Circle { center, radius } => {
+                let half = Vec2::new(radius, radius);
+                (center - half, center + half)
+            }
+            crate::Curve::Line { .. } => (curve.point(self.lo), curve.point(self.hi)),
+        };
+        let (min, max) = ([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]);
+        AABB::from_corners(min.map(|k| k - margin), max.map(|k| k + margin))
+    }
+
+    fn reaches(&self, p: Vec2, classes: &Classes, margin: f64) -> bool {
+        let t = classes.curves[self.class as usize].parameter(p);
+        self.circle || (t >= self.lo - margin && t <= self.hi + margin)
+    }
+
+    /// Adds the points common to both runs, and ends of one that lie on the other where no such point is.
+    fn cross(&self, other: &Run, classes: &Classes, tolerance: &Tolerance, found: &mut Vec<Crossing>) {
+        let margin = tolerance.length;
+        let both = [self.class, other.class];
+        let [a, b] = both.map(|c| &classes.curves[c as usize]);
+        let first = found.len();
+        let points = a.common_points(b, margin, tolerance.angle).into_iter().flatten();
+        let common =
+            points.filter(|&p| self.reaches(p, classes, margin) && other.reaches(p, classes, margin));
+        found.extend(common.map(|at| Crossing { at, classes: both }));
+        for (run, curve, opposite, on) in [(self, a, other, b), (other, b, self, a)] {
+            for end in if run.circle { [None; 2] } else { [Some(run.lo), Some(run.hi)] }.into_iter().flatten()
+            {
+                let at = curve.point(end);
+                let known = found[first..].iter().any(|c| (c.at - at).norm() <= 4.0 * margin);
+                if !known && on.distance(at) <= margin && opposite.reaches(at, classes, margin) {
+                    found.push(Crossing { at, classes: both });
+                }
+            }
+        }
+    }
+}
+
+/// Vertices, and the vertex of every point: the first one within the tolerance.
+fn merge_points(points: &[Crossing], tolerance: f64) -> (Vec<Vec2>, Vec<u32>) {
+    let cell = 1024.0 * tolerance;
+    let index = |v: f64| (v / cell).floor() as i64;
+    let mut grid: HashMap<(i64, i64), Vec<u32>> = HashMap::new();
+    let mut vertices: Vec<Vec2> = Vec::new();
+    let mut of = Vec::with_capacity(points.len());
+    for Crossing { at: p, .. } in points {
+        let columns = index(p.x - tolerance)..=index(p.x + tolerance);
+        let cells =
+            columns.flat_map(|i| (index(p.y - tolerance)..=index(p.y + tolerance)).map(move |j| (i, j)));
+        let near = cells.filter_map(|c| grid.get(&c)).flatten();
+        let known = near.filter(|&&v| (vertices[v as usize] - *p).norm() <= tolerance).min().copied();
+        of.push(known.unwrap_or_else(|| {
+            let new = vertices.len() as u32;
+            grid.entry((index(p.x), index(p.y))).or_default().push(new);
+            vertices.push(*p);
+            new
+        }));
+    }
+    (vertices, of)
+}

@@ -1,0 +1,257 @@
+//! A set expression as a tree that is evaluated sparsely: only what holds a point is visited.
+//!
+//! With a point outside every primitive every node is false, so evaluation starts at the primitives that
+//! hold the point and climbs. Chains of the same operation are one node, so ten thousand unions stay flat.
+
+use crate::{Bounds3, Csg, CsgOp};
+use std::collections::{BTreeMap, BinaryHeap};
+
+/// Membership just left and just right of a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Sides {
+    pub left: bool,
+    pub right: bool,
+}
+
+impl Sides {
+    pub const BOTH: Self = Self { left: true, right: true };
+
+    pub fn differ(self) -> bool {
+        self.left != self.right
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    op: CsgOp,
+    parent: u32,
+    /// Operand of a difference that is taken away.
+    removed: bool,
+    operands: u32,
+}
+
+/// Nodes ordered so that parents come before their operands; node 0 is the whole.
+#[derive(Clone, Debug)]
+pub(crate) struct Tree {
+    nodes: Vec<Node>,
+    leaves: BTreeMap<u32, Vec<u32>>,
+}
+
+/// Scratch space for [`Tree::evaluate`], reused between calls.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    counts: Vec<[u32; 4]>,
+    value: Vec<Sides>,
+    stamp: Vec<u32>,
+    epoch: u32,
+    heap: BinaryHeap<u32>,
+    touched: Vec<u32>,
+    varying: Vec<(u32, u32)>,
+}
+
+impl Tree {
+    /// `None` if the postfix program is malformed. An empty program is the empty set.
+    pub fn new(csg: &Csg) -> Option<Self> {
+        let mut draft = Draft::default();
+        for op in &csg.ops {
+            draft.push(*op)?;
+        }
+        match draft.stack.len() {
+            0 => Some(Self { nodes: Vec::new(), leaves: BTreeMap::new() }),
+            1 => Some(draft.ordered()),
+            _ => None,
+        }
+    }
+
+    /// The primitives that can matter, in ascending order.
+    pub fn primitives(&self) -> impl Iterator<Item = u32> + '_ {
+        self.leaves.keys().copied()
+    }
+
+    /// A box about every node.
+    fn boxes(&self, of: impl Fn(u32) -> Bounds3) -> Vec<Bounds3> {
+        let start = |n: &Node| match n.op {
+            CsgOp::Leaf(i) => of(i),
+            CsgOp::Intersection => Bounds3 { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY; 3] },
+            _ => Bounds3::EMPTY,
+        };
+        let mut boxes: Vec<_> = self.nodes.iter().map(start).collect();
+        for n in (1..self.nodes.len()).rev() {
+            let (node, up) = (self.nodes[n], self.nodes[n].parent as usize);
+            if self.nodes[up].op == CsgOp::Intersection {
+                boxes[up] = boxes[up].common(&boxes[n]);
+            } else if !node.removed {
+                boxes[up] = boxes[up].hull(&boxes[n]);
+            }
+        }
+        boxes
+    }
+
+    /// A box about the whole set, given one about every primitive.
+    pub fn bounds(&self, of: impl Fn(u32) -> Bounds3) -> Bounds3 {
+        self.boxes(of).first().copied().unwrap_or(Bounds3::EMPTY)
+    }
+
+    /// Drops the leaves that reach nowhere deeper than `tolerance` (a length) into the region where their
+    /// membership matters, such as a cutter beside what it cuts.
+    pub fn prune(&mut self, of: impl Fn(u32) -> Bounds3, tolerance: f64) {
+        let boxes = self.boxes(&of);
+        let mut matters = boxes.clone();
+        for n in 1..self.nodes.len() {
+            let up = self.nodes[n].parent as usize;
+            matters[n] = match self.nodes[up].op {
+                CsgOp::Union => matters[up],
+                _ => matters[up].common(&boxes[up]),
+            };
+        }
+        for (primitive, leaves) in &mut self.leaves {
+            let own = of(*primitive);
+            leaves.retain(|&n| own.common(&matters[n as usize]).thickness() > tolerance);
+        }
+        self.leaves.retain(|_, leaves| !leaves.is_empty());
+    }
+
+    /// The whole's membership on both sides, given that of the primitives (those not given are outside).
+    /// `active` receives the primitives whose boundary is the whole's boundary here.
+    pub fn evaluate(&self, given: &[(u32, Sides)], s: &mut Scratch, active: &mut Vec<u32>) -> Sides {
+        active.clear();
+        s.begin(self.nodes.len());
+        for &(primitive, sides) in given {
+            for &leaf in self.leaves.get(&primitive).map_or(&[][..], |l| l) {
+                s.settle(self, leaf, sides);
+                if sides.differ() {
+                    s.varying.push((leaf, primitive));
+                }
+            }
+        }
+        while let Some(n) = s.heap.pop() {
+            s.touched.push(n);
+            let sides = s.combine(&self.nodes[n as usize], n);
+            s.settle(self, n, sides);
+        }
+        if self.nodes.is_empty() || s.stamp[0] != s.epoch || !s.value[0].differ() {
+            return s.root_value();
+        }
+        self.collect_active(s, active);
+        s.value[0]
+    }
+
+    /// A leaf is active if it and everything above it differs between the sides.
+    fn collect_active(&self, s: &mut Scratch, active: &mut Vec<u32>) {
+        for &n in s.touched.iter().rev().filter(|&&n| n != 0) {
+            let up = self.nodes[n as usize].parent as usize;
+            if !s.value[up].differ() {
+                s.value[n as usize] = Sides::default();
+            }
+        }
+        for &(leaf, primitive) in &s.varying {
+            let up = if leaf == 0 { 0 } else { self.nodes[leaf as usize].parent as usize };
+            if s.value[up].differ() {
+                active.push(primitive);
+            }
+        }
+        active.sort_unstable();
+        active.dedup();
+    }
+}
+
+impl Scratch {
+    fn begin(&mut self, nodes: usize) {
+        if self.stamp.len() != nodes || self.epoch == u32::MAX {
+            self.stamp = vec![0; nodes];
+            self.counts = vec![[0; 4]; nodes];
+            self.value = vec![Sides::default(); nodes];
+            self.epoch = 0;
+        }
+        self.epoch += 1;
+        self.touched.clear();
+        self.varying.clear();
+    }
+
+    fn root_value(&self) -> Sides {
+        if self.stamp.first() == Some(&self.epoch) { self.value[0] } else { Sides::default() }
+    }
+
+    fn combine(&self, node: &Node, n: u32) -> Sides {
+        let c = self.counts[n as usize];
+        let one = |kept: u32, removed: u32| match node.op {
+            CsgOp::Intersection => kept == node.operands,
+            CsgOp::Difference => kept > 0 && removed == 0,
+            _ => kept > 0,
+        };
+        Sides { left: one(c[0], c[2]), right: one(c[1], c[3]) }
+    }
+
+    /// Records a node's value and hands it to the parent.
+    fn settle(&mut self, tree: &Tree, n: u32, sides: Sides) {
+        let node = &tree.nodes[n as usize];
+        self.value[n as usize] = sides;
+        if n == 0 {
+            self.stamp[0] = self.epoch;
+            return;
+        }
+        if sides == Sides::default() {
+            return;
+        }
+        let up = node.parent as usize;
+        if self.stamp[up] != self.epoch {
+            self.stamp[up] = self.epoch;
+            self.counts[up] = [0; 4];
+            self.heap.push(node.parent);
+        }
+        let base = if node.removed { 2 } else { 0 };
+        self.counts[up][base] += u32::from(sides.left);
+        self.counts[up][base + 1] += u32::from(sides.right);
+    }
+}
+
+/// The tree as it is built, in the order of the text.
+#[derive(Default)]
+struct Draft {
+    ops: Vec<CsgOp>,
+    operands: Vec<Vec<u32>>,
+    stack: Vec<u32>,
+}
+
+impl Draft {
+    fn push(&mut self, op: CsgOp) -> Option<()> {
+        if matches!(op, CsgOp::Leaf(_)) {
+            self.add(op, Vec::new());
+            return Some(());
+        }
+        let (b, a) = (self.stack.pop()?, self.stack.pop()?);
+        if self.ops[a as usize] == op {
+            self.operands[a as usize].push(b);
+            self.stack.push(a);
+        } else {
+            self.add(op, vec![a, b]);
+        }
+        Some(())
+    }
+
+    fn add(&mut self, op: CsgOp, operands: Vec<u32>) {
+        self.stack.push(self.ops.len() as u32);
+        self.ops.push(op);
+        self.operands.push(operands);
+    }
+
+    /// Numbers the nodes breadth first.
+    fn ordered(self) -> Tree {
+        let mut nodes: Vec<Node> = Vec::with_capacity(self.ops.len());
+        let mut queue = vec![(self.stack[0], 0, false)];
+        let mut leaves: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        let mut next = 0;
+        while next < queue.len() {
+            let (old, parent, removed) = queue[next];
+            let (op, operands) = (self.ops[old as usize], &self.operands[old as usize]);
+            if let CsgOp::Leaf(i) = op {
+                leaves.entry(i).or_default().push(next as u32);
+            }
+            nodes.push(Node { op, parent, removed, operands: operands.len() as u32 });
+            let difference = op == CsgOp::Difference;
+            queue.extend(operands.iter().enumerate().map(|(k, &o)| (o, next as u32, difference && k > 0)));
+            next += 1;
+        }
+        Tree { nodes, leaves }
+    }
+}
