@@ -4,14 +4,28 @@
 //! [`Machine::primitives`] the shapes and their poses, over numbers or over dual numbers.
 
 mod angle;
+mod attributes;
+mod build;
 mod description;
 mod error;
+mod expand;
 mod expression;
+mod lexer;
 pub mod limits;
+mod load;
 mod machine;
 mod names;
+mod parse_file;
+mod parse_number;
+mod parse_solid;
+mod parse_supplement;
+mod parser;
 mod placement;
+mod resolve;
 mod shape_text;
+mod solids;
+mod source;
+mod syntax;
 mod values;
 
 pub use description::{

@@ -15,8 +15,8 @@ pub const EXPRESSION_NODES: usize = 1_000;
 /// Definitions in a file; keeps the memory of a file of 16 MiB below 1 GiB.
 pub const DEFINITIONS: usize = 100_000;
 
-/// Placements (`at` groups and copies of symmetric unions) after expansion: bounds the work of finding all poses.
-pub const PLACEMENTS: usize = 1_000_000;
+/// Steps of expansion (named solids entered, `at` groups, copies): bounds the work of finding all poses.
+pub const EXPANSION_STEPS: usize = 1_000_000;
 
 /// Single motions (`movx=…`) written in a file; each is an expression of its own.
 pub const MOTIONS: usize = 1_000_000;

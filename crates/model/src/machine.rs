@@ -24,8 +24,6 @@ pub struct Machine {
     pub(crate) copies: Vec<Copies>,
     pub(crate) poses: Vec<PoseStep>,
     pub(crate) leaves: Vec<Leaf>,
-    /// Names of solids for labels, as first written.
-    pub(crate) solid_names: Vec<String>,
     pub(crate) parts: Vec<PartModel>,
     pub(crate) gears: Vec<Gear>,
     pub(crate) unions: Vec<SymmetricUnion>,
@@ -37,8 +35,6 @@ pub struct Machine {
 pub(crate) struct Leaf {
     pub shape: u32,
     pub pose: u32,
-    /// The solid in whose definition the shape is written.
-    pub solid: u32,
 }
 
 impl Machine {
@@ -99,9 +95,7 @@ impl Machine {
 
     /// A primitive in words, for example `tooth (blo)`: the solid whose definition it stands in, and its kind.
     pub fn label_of_primitive(&self, primitive: u32) -> String {
-        let Some(leaf) = self.leaves.get(primitive as usize) else { return String::new() };
-        let word = self.shape_of(primitive).map_or("", |s| s.kind.name());
-        format!("{} ({word})", self.solid_names[leaf.solid as usize])
+        self.shape_of(primitive).map_or(String::new(), |s| s.label.clone())
     }
 
     fn shape_of(&self, primitive: u32) -> Option<&ShapeText> {
@@ -158,6 +152,18 @@ impl Machine {
             numbers[i] = self.named(self.number(i, given[i], &numbers))?;
         }
         Ok(Values { numbers })
+    }
+
+    /// Evaluates every definition that can be evaluated without overrides.
+    pub(crate) fn find_defaults(&mut self) {
+        let mut numbers = vec![f64::NAN; self.parameters.len()];
+        for &i in &self.order {
+            let i = i as usize;
+            if let Ok(value) = self.number(i, None, &numbers) {
+                numbers[i] = value;
+                self.parameters[i].default = Some(value);
+            }
+        }
     }
 
     fn number<S: Scalar>(&self, i: usize, given: Option<S>, numbers: &[S]) -> Read<S> {

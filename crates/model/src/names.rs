@@ -26,7 +26,7 @@ pub(crate) fn nearest<'a>(known: impl IntoIterator<Item = &'a str>, wanted: &str
 /// What to expect in place of `wanted`: the nearest name, or a list.
 pub(crate) fn one_of(known: &[&str], wanted: &str) -> String {
     if let Some(name) = nearest(known.iter().copied(), wanted) {
-        return format!("perhaps `{name}`");
+        return format!("`{name}`, the nearest name");
     }
     list(known)
 }

@@ -48,6 +48,8 @@ pub(crate) struct ShapeText {
     /// One for each name of [`ShapeKind::sizes`].
     pub sizes: [Option<Expression>; 3],
     pub place: Place,
+    /// The solid in whose definition it stands, and its word: `tooth (blo)`.
+    pub label: String,
 }
 
 impl ShapeText {
