@@ -46,7 +46,12 @@ def part_points(part: Part) -> list[Xy]:
 def bounds(parts: list[Part], poses: Iterable[Mapping[str, float]]) -> tuple[float, float, float, float]:
     """Return the box (left, bottom, right, top) of all parts in all these poses."""
     spans = {part["name"]: part_points(part) for part in parts}
-    found = [moved(part, pose.get(part["name"], 0.0), p) for pose in poses for part in parts for p in spans[part["name"]]]
+    found = [
+        moved(part, pose.get(part["name"], 0.0), p)
+        for pose in poses
+        for part in parts
+        for p in spans[part["name"]]
+    ]
     if not found:
         return -1.0, -1.0, 1.0, 1.0
     xs, ys = [p[0] for p in found], [p[1] for p in found]

@@ -84,7 +84,8 @@ def _bodies(parts: list[Part], q: Mapping[str, float]) -> str:
     return "".join(drawn)
 
 
-def _cross(x: float, y: float, arm: float) -> str:
+def _cross(center: list[float], arm: float) -> str:
+    x, y = center
     h = f"M{number(x - arm)} {number(y)}H{number(x + arm)}"
     return f'<path class="axis" d="{h}M{number(x)} {number(y - arm)}V{number(y + arm)}"/>'
 
@@ -102,7 +103,7 @@ def _axes(parts: list[Part], size: float) -> str:
     drawn = []
     for part in (p for p in parts if p["motion"]):
         if part["motion"]["kind"] == "turn":
-            drawn.append(_cross(*part["motion"]["center"], 0.022 * size))
+            drawn.append(_cross(part["motion"]["center"], 0.022 * size))
         elif part_points(part):
             drawn.append(f'<g class="{colour[part["name"]]}">{_slideway(part, size)}</g>')
     return "".join(drawn)

@@ -1,0 +1,73 @@
+"""`mainspring cite`: the sources a result rests on."""
+
+import json
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+from mainspring.cli import output
+from mainspring.cli.faults import Usage
+
+_MOST_BYTES = 64 * 1024 * 1024
+
+GELSEY = "Gelsey, A. (1995). Automated reasoning about machines. Artificial Intelligence 74(1), 1-53."
+SOURCES: dict[str, tuple[tuple[str, str], ...]] = {
+    "inspect": (
+        (GELSEY, "input language (Figs. 12, 13), pairs and subsystems (Algorithms 1-7)"),
+        (
+            "Brown, C. M. (1982). PADL-2: A technical summary. "
+            "IEEE Computer Graphics and Applications 2(2), 69-84.",
+            "the language of solids",
+        ),
+        ("Reuleaux, F. (1876). The Kinematics of Machinery. Macmillan, London.", "kinematic pairs"),
+    ),
+    "simulate": (
+        (GELSEY, "rigid contact (Appendix A, equations corrected)"),
+        (
+            "Gauss, C. F. (1829). Über ein neues allgemeines Grundgesetz der Mechanik. "
+            "Journal für die reine und angewandte Mathematik 4, 232-235.",
+            "accelerations under contact",
+        ),
+        (
+            "Moreau, J. J. (1988). Unilateral contact and dry friction in finite freedom dynamics. "
+            "In: Nonsmooth Mechanics and Applications, CISM 302, 1-82. Springer, Vienna.",
+            "impacts as projections",
+        ),
+    ),
+    "predict": ((GELSEY, "patterns of motion (Algorithm 12, corrected)"),),
+}
+_BUILDS_ON = {"inspect": ("inspect",), "simulate": ("inspect", "simulate"), "predict": tuple(SOURCES)}
+
+
+def run(options: Namespace) -> None:
+    """Print the sources of one result, or of all."""
+    kind = kind_of(_read(Path(options.result))) if options.result else "predict"
+    found = [{"source": s, "used_for": why} for step in _BUILDS_ON[kind] for s, why in SOURCES[step]]
+    if options.json:
+        output.print_json(json.dumps({"kind": kind, "sources": found}, ensure_ascii=False))
+        return
+    for entry in found:
+        print(f"{entry['source']}\n    for: {entry['used_for']}")
+
+
+def _read(path: Path) -> Any:  # noqa: ANN401
+    if path.stat().st_size > _MOST_BYTES:
+        raise Usage(f"{path}: larger than 64 MiB; expected a JSON result of this program")
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as fault:
+        raise Usage(f"{path}: not JSON; expected a result of this program") from fault
+
+
+def kind_of(result: Any) -> str:  # noqa: ANN401
+    """Return which command made a result, by its keys."""
+    keys = set(result) if isinstance(result, dict) else set()
+    for kind, key in (
+        ("predict", "hypotheses"),
+        ("predict", "prediction"),
+        ("simulate", "events"),
+        ("inspect", "pairs"),
+    ):
+        if key in keys:
+            return kind
+    raise Usage("expected a result of inspect, simulate, predict or demo")

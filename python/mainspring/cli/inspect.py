@@ -1,0 +1,91 @@
+"""`mainspring inspect`: how the parts can move and touch, and why."""
+
+from argparse import Namespace
+from pathlib import Path
+
+import mainspring as ms
+from mainspring.cli import opening, output, tables
+from mainspring.pairs import Axis, Kinematics, Pair
+
+_MOVES = {"revolute": "turns", "prismatic": "slides", "cylindrical": "turns and slides"}
+
+
+def run(options: Namespace) -> None:
+    """Print the analysis; with `--svg` draw the machine first."""
+    mechanism = opening.mechanism(options)
+    found = ms.find_pairs(mechanism)
+    opening.warn(found.warnings)
+    if options.svg:
+        from mainspring.drawing import draw
+
+        output.write_text(Path(options.svg), draw(mechanism.outlines(), title=mechanism.name))
+    if options.json:
+        output.print_json(found.to_json())
+    else:
+        account(mechanism, found)
+        if options.svg:
+            print(f"\ndrawing: {options.svg}")
+
+
+def account(mechanism: "ms.Mechanism", found: Kinematics) -> None:
+    """Say the analysis in sentences, then in tables."""
+    print(f"{mechanism.name}: " + " ".join(sentences(found)))
+    tables.show("pairs", ("kind", "parts", "axis through", "along", "why"), map(_pair_row, found.pairs))
+    rows = ((s.root, ", ".join(s.parts), _inertia(s.inertia)) for s in found.subsystems)
+    tables.show("subsystems", ("root", "parts", "inertia"), rows)
+    misses = ((" – ".join(n.parts), n.why) for n in found.near_misses)
+    tables.show("no pairs, though alike", ("parts", "why not"), misses)
+
+
+def sentences(found: Kinematics) -> list[str]:
+    """Return what moves, what can touch and how many numbers describe the state."""
+    by_kind: dict[str, list[str]] = {}
+    for pair in found.pairs:
+        moving = [p for p in pair.parts if p != found.frame]
+        if pair.kind in _MOVES and len(moving) == 1:
+            by_kind.setdefault(pair.kind, []).append(moving[0])
+    said = [f"{listed(names)} {_verb(kind, names)}." for kind, names in by_kind.items()]
+    gears = [" and ".join(p.parts) for p in found.pairs if p.kind == "gear"]
+    said += [f"{listed(gears)} mesh as gears."] if gears else []
+    touching = listed(["–".join(i) for i in found.interactions])
+    said.append(f"Can ever touch: {touching}." if touching else "No parts can ever touch.")
+    said.append(f"State: {len(found.state_variables)} variables.")
+    return said
+
+
+def _verb(kind: str, names: list[str]) -> str:
+    axis = "an axis fixed in the frame" if kind != "prismatic" else "a direction fixed in the frame"
+    how = {"revolute": "about", "prismatic": "along", "cylindrical": "about and along"}[kind]
+    verb = (
+        _MOVES[kind] if len(names) == 1 else _MOVES[kind].replace("turns", "turn").replace("slides", "slide")
+    )
+    return f"{verb} {how} {axis}" if len(names) == 1 else f"each {verb} {how} {axis}"
+
+
+def listed(words: list[str]) -> str:
+    """Return words with commas and a last "and"."""
+    if len(words) < 2:
+        return "".join(words)
+    return ", ".join(words[:-1]) + " and " + words[-1]
+
+
+def _inertia(value: float | None) -> str:
+    return "not given" if value is None else tables.signed(value)
+
+
+def _pair_row(pair: Pair) -> tuple[str, str, str, str, str]:
+    kind = pair.kind if pair.kind == pair.shape_kind else f"{pair.kind} (shape: {pair.shape_kind})"
+    through, along = _axis(pair.axis)
+    if pair.ratio is not None:
+        along = f"ratio {tables.signed(pair.ratio)}"
+    return kind, " – ".join(pair.parts), through, along, "; ".join(pair.evidence)
+
+
+def _axis(axis: Axis | None) -> tuple[str, str]:
+    if not axis:
+        return "", ""
+    point = ", ".join(tables.signed(v, 4) for v in axis.point)
+    for name, unit in zip("xyz", ((1, 0, 0), (0, 1, 0), (0, 0, 1)), strict=True):
+        if axis.direction == unit:
+            return f"({point})", name
+    return f"({point})", "(" + ", ".join(tables.signed(v, 4) for v in axis.direction) + ")"

@@ -1,0 +1,120 @@
+"""`mainspring simulate`: the motion over a stretch of time."""
+
+from argparse import Namespace
+from pathlib import Path
+
+import mainspring as ms
+from mainspring.cli import opening, output, tables, values
+from mainspring.cli.faults import Stopped, Usage
+from mainspring.cli.progress import watch
+from mainspring.simulation import Simulation
+
+
+def run(options: Namespace) -> None:
+    """Run the machine, write what was asked for, print the result."""
+    until = values.positive(options.until, "--until")
+    rtol = values.positive(options.rtol, "--rtol")
+    if options.csv and not options.out:
+        raise Usage("--csv: needs --out DIR, where trajectory.csv is to go")
+    mechanism = opening.mechanism(options)
+    start = opening.start(options, mechanism)
+    opening.warn(ms.find_pairs(mechanism).warnings)
+    with watch("simulating", until) as progress:
+        result = ms.simulate(
+            mechanism,
+            until,
+            contact=options.contact,
+            rtol=rtol,
+            forces=options.forces,
+            progress=progress,
+            **start,
+        )
+    _keep(options, mechanism, result)
+    if progress.stopped:
+        raise Stopped
+
+
+def _keep(options: Namespace, mechanism: "ms.Mechanism", result: Simulation) -> None:
+    text = result.to_json(timing=options.timing)
+    written = write(Path(options.out), text, result, options.csv) if options.out else []
+    if options.report:
+        from mainspring.report import page
+
+        output.write_text(Path(options.report), page(mechanism, result))
+        written.append(options.report)
+    if options.json:
+        output.print_json(text)
+    else:
+        account(mechanism, result)
+        for path in written:
+            print(f"wrote {path}")
+
+
+def write(folder: Path, text: str, result: Simulation, csv: bool) -> list[str]:
+    """Write result.json, trajectory.npz and on request trajectory.csv; return their paths."""
+    import numpy as np
+
+    motion = result.trajectory
+    parts = np.array(motion.parts, dtype=np.str_)
+    output.write_text(folder / "result.json", text + "\n")
+    output.write_file(
+        folder / "trajectory.npz", lambda s: np.savez(s, t=motion.t, q=motion.q, v=motion.v, parts=parts)
+    )
+    names = ["result.json", "trajectory.npz"]
+    if csv:
+        output.write_text(folder / "trajectory.csv", _csv(result))
+        names.append("trajectory.csv")
+    return [str(folder / name) for name in names]
+
+
+def _csv(result: Simulation) -> str:
+    motion = result.trajectory
+    head = ["t"] + [f"{p}.{k}" for k in ("position", "velocity") for p in motion.parts]
+    lines = [",".join(head)]
+    for t, q, v in zip(motion.t.tolist(), motion.q.tolist(), motion.v.tolist(), strict=True):
+        lines.append(",".join(map(repr, [t, *q, *v])))
+    return "\n".join(lines) + "\n"
+
+
+_ENDED = {
+    "complete": "ran to the end asked for",
+    "at_rest": "came to rest and stays there",
+    "step_limit": "gave up at the limit of steps; ask for a shorter time or a larger --rtol",
+    "stopped": "was stopped; what follows is what was finished",
+}
+
+
+def account(mechanism: "ms.Mechanism", result: Simulation) -> None:
+    """Say how it ended, then the final state and the energy account."""
+    motions = {p["name"]: p["motion"]["kind"] for p in mechanism.outlines()["parts"] if p["motion"]}
+    ended = _ENDED.get(result.status, result.status)
+    kinds = [e.kind for e in result.events]
+    print(f"{mechanism.name}: the run {ended}, t = {tables.signed(result.t, 8)} s.")
+    print(
+        f"{kinds.count('impact')} impacts, {kinds.count('close') + kinds.count('release')} contact changes, "
+        f"{len(result.kinetic_energy_minima)} minima of kinetic energy."
+    )
+    rows = (
+        (
+            p,
+            tables.coordinate(q, motions.get(p, "turn")),
+            tables.coordinate(result.velocities[p], motions.get(p, "turn")) + "/s",
+        )
+        for p, q in result.positions.items()
+    )
+    tables.show("at the end", ("part", "position", "velocity"), rows)
+    tables.show("energy", ("account", "amount"), energy_rows(result))
+    counts = (f"{k} {v:.3g}" if isinstance(v, float) else f"{k} {v}" for k, v in result.stats.items())
+    print("\nwork: " + ", ".join(counts))
+
+
+def energy_rows(result: Simulation) -> list[tuple[str, str]]:
+    """Return the energy account as rows of words and amounts."""
+    e = result.energy
+    return [
+        ("at the start", tables.signed(e.initial, 8)),
+        ("lost to friction", tables.signed(e.friction, 8)),
+        ("lost at impacts", tables.signed(e.impacts, 8)),
+        ("at the end", tables.signed(e.final, 8)),
+        ("residual, relative", tables.signed(e.residual, 2)),
+    ]

@@ -1,0 +1,118 @@
+"""Plots over time that stretch with the page: curves in SVG, words in HTML, one time axis for all."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mainspring.report.sampling import Film, Floats
+from mainspring.report.ticks import Axis, angles, decades, lengths, times
+from mainspring.report.words import escape
+
+DEEPEST = -9
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One plotted quantity: its axis and its values at the film's times."""
+
+    title: str
+    kind: str
+    axis: Axis
+    values: Floats
+
+
+def curves(film: Film, motions: dict[str, str], colour: dict[str, str]) -> list[Curve]:
+    """Return the joint positions of all moving parts as curves in their colours."""
+    found = []
+    for column, part in enumerate(film.parts):
+        values = film.q[:, column]
+        make = angles if motions.get(part) == "turn" else lengths
+        found.append(Curve(part, colour[part], make(float(values.min()), float(values.max())), values))
+    return found
+
+
+def energy_curve(film: Film) -> Curve:
+    """Return the kinetic energy relative to its largest value, as a power of ten."""
+    largest = float(film.kinetic.max()) or 1.0
+    values = np.log10(np.maximum(film.kinetic / largest, 10.0**DEEPEST))
+    return Curve("kinetic energy", "pk", decades(DEEPEST, 3), values)
+
+
+def line(t: Floats, values: Floats, time: Axis, axis: Axis, width: float, height: float) -> str:
+    """Return an SVG path through the samples, y down; samples on a straight line are left out."""
+    x = (t - time.low) / (time.high - time.low) * width
+    y = (1 - (values - axis.low) / (axis.high - axis.low)) * height
+    keep = _corners(np.round(x, 2), np.round(y, 2))
+    return "M" + "L".join(f"{a:.5g} {b:.5g}" for a, b in zip(x[keep].tolist(), y[keep].tolist(), strict=True))
+
+
+def _corners(x: Floats, y: Floats) -> NDArray[np.bool_]:
+    """Return which samples are needed: neighbours that nearly repeat both coordinates are not."""
+    moved = (np.abs(np.diff(x)) > 0) | (np.abs(np.diff(y)) > 0)
+    flat = np.zeros(len(x), dtype=bool)
+    flat[1:-1] = (y[1:-1] == y[:-2]) & (y[1:-1] == y[2:])
+    keep = np.concatenate(([True], moved)) & ~flat
+    keep[-1] = True
+    return keep
+
+
+def _grid(axis: Axis) -> str:
+    levels = [100 * (1 - axis.share(v)) for v, _ in axis.marks]
+    return "".join(f'<path class="grid" d="M0 {y:.2f}H1000"/>' for y in levels)
+
+
+def _labels(axis: Axis) -> str:
+    places = ((100 * (1 - axis.share(v)), label) for v, label in axis.marks)
+    return "".join(f'<span style="top:{y:.2f}%">{escape(label)}</span>' for y, label in places)
+
+
+def _dots(moments: list[float], time: Axis, level: float) -> str:
+    """Draw dots as strokes of no length: they stay round however the plot is stretched."""
+    points = "".join(f"M{1000 * time.share(t):.2f} {level:.2f}h0" for t in moments)
+    return f'<path class="dot" d="{points}"/>' if points else ""
+
+
+def _framed(kind: str, data: str, ticks: str, told: str, drawn: str, label: str) -> str:
+    """Return one row of the plots: marks at the left, the stretching picture, the value at the right."""
+    svg = (
+        '<svg viewBox="0 0 1000 100" preserveAspectRatio="none" role="img">'
+        f"<title>{escape(told)}</title>{drawn}</svg>"
+    )
+    return (
+        f'<div class="panel {kind}"{data}><div class="ticks" aria-hidden="true">{ticks}</div>'
+        f'<div class="area">{svg}<span class="label">{label}</span></div>'
+        '<output class="value"></output></div>'
+    )
+
+
+def panel(curve: Curve, film: Film, time: Axis, minima: list[float] | None = None, note: str = "") -> str:
+    """Return one plot with its own vertical axis; `minima` get dots on the lowest level shown."""
+    path = line(film.t, curve.values, time, curve.axis, 1000, 100)
+    level = 100 * (1 - curve.axis.share(float(DEEPEST)))
+    drawn = f'{_grid(curve.axis)}<path class="curve" d="{path}"/>{_dots(minima or [], time, level)}'
+    title = escape(curve.title)
+    told = f"{curve.title} against time"
+    return _framed(curve.kind, f' data-curve="{title}"', _labels(curve.axis), told, drawn, title + note)
+
+
+def lane(pair: str, label: str, spans: list[list[float]], blows: list[float], time: Axis) -> str:
+    """Return a strip that shows when two parts touch (bars) and strike (dots); `label` is HTML."""
+    ends = ((1000 * time.share(a), 1000 * time.share(b)) for a, b in spans)
+    bars = "".join(f'<path class="bar" d="M{a:.2f} 50H{b:.2f}"/>' for a, b in ends)
+    return _framed("lane", "", "", f"when {pair} touch", bars + _dots(blows, time, 50), label)
+
+
+def time_axis(film: Film) -> Axis:
+    """Return the time axis of a film."""
+    return times(float(film.t[0]), float(film.t[-1]))
+
+
+def time_labels(time: Axis) -> str:
+    """Return the row of time marks under the plots."""
+    places = ((100 * time.share(value), escape(text)) for value, text in time.marks)
+    marks = "".join(f'<span style="left:{x:.3f}%">{text}</span>' for x, text in places)
+    return (
+        '<div class="panel times" aria-hidden="true"><div class="ticks"></div>'
+        f'<div class="area">{marks}</div></div>'
+    )
