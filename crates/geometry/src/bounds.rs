@@ -65,7 +65,7 @@ impl Bounds3 {
     }
 
     pub fn is_empty(&self) -> bool {
-        (0..3).any(|i| !(self.min[i] <= self.max[i]))
+        (0..3).any(|i| self.min[i] > self.max[i] || self.min[i].is_nan() || self.max[i].is_nan())
     }
 
     /// The smallest of the three sides; negative infinity for the empty box.

@@ -62,7 +62,7 @@ struct Piece {
 
 impl Chainer<'_> {
     pub fn loops(&self, edges: &[BoundaryEdge]) -> Result<Vec<RawLoop>, OutlineError> {
-        let mut loops: Vec<RawLoop> = edges.iter().filter(|e| e.ends.is_none()).map(|e| whole(e)).collect();
+        let mut loops: Vec<RawLoop> = edges.iter().filter(|e| e.ends.is_none()).map(whole).collect();
         let pieces: Vec<Piece> = edges.iter().filter_map(Piece::of).collect();
         for chain in self.chains(&pieces)? {
             let joined = self.join(chain.iter().map(|&i| &pieces[i as usize]));

@@ -142,3 +142,24 @@ impl<S: Scalar> Escapement<S> {
 }
 
 pub const FIGURE: [f64; 4] = [36.0, 7.0, 25.0, -40.0];
+
+/// A small generator of pseudo-random numbers (xorshift), so that every run tests the same cases.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    pub fn below(&mut self, n: u64) -> u64 {
+        (self.next() >> 11) % n
+    }
+
+    /// Between `low` and `high`.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
