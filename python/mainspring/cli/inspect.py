@@ -30,9 +30,11 @@ def run(options: Namespace) -> None:
 def account(mechanism: "ms.Mechanism", found: Kinematics) -> None:
     """Say the analysis in sentences, then in tables."""
     print(f"{mechanism.name}: " + " ".join(sentences(found)))
-    tables.show("pairs", ("kind", "parts", "axis through", "along", "why"), map(_pair_row, found.pairs))
+    tables.show("pairs", ("parts", "kind", "axis through", "along"), map(_pair_row, found.pairs))
+    reasons = ((" – ".join(p.parts), "; ".join(p.evidence)) for p in found.pairs)
+    tables.show("why they are pairs", ("parts", "evidence"), reasons)
     rows = ((s.root, ", ".join(s.parts), _inertia(s.inertia)) for s in found.subsystems)
-    tables.show("subsystems", ("root", "parts", "inertia"), rows)
+    tables.show("subsystems", ("root", "parts", "inertia"), rows, numeric=(2,))
     misses = ((" – ".join(n.parts), n.why) for n in found.near_misses)
     tables.show("no pairs, though alike", ("parts", "why not"), misses)
 
@@ -73,12 +75,12 @@ def _inertia(value: float | None) -> str:
     return "not given" if value is None else tables.signed(value)
 
 
-def _pair_row(pair: Pair) -> tuple[str, str, str, str, str]:
+def _pair_row(pair: Pair) -> tuple[str, str, str, str]:
     kind = pair.kind if pair.kind == pair.shape_kind else f"{pair.kind} (shape: {pair.shape_kind})"
     through, along = _axis(pair.axis)
     if pair.ratio is not None:
         along = f"ratio {tables.signed(pair.ratio)}"
-    return kind, " – ".join(pair.parts), through, along, "; ".join(pair.evidence)
+    return " – ".join(pair.parts), kind, through, along
 
 
 def _axis(axis: Axis | None) -> tuple[str, str]:

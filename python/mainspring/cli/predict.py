@@ -71,7 +71,7 @@ def account(mechanism: "ms.Mechanism", result: Prediction) -> None:
             for part, c in result.pattern.change.items()
         )
         heads = ("part", "change of position", "change of velocity")
-        tables.show(f"one pattern, {tables.signed(result.pattern.duration)} s", heads, rows)
+        tables.show(f"one pattern, {tables.signed(result.pattern.duration)} s", heads, rows, numeric=(1, 2))
     tables.show(
         "hypotheses", ("minima", "formed at", "fell at", "why"), map(hypothesis_row, result.hypotheses)
     )

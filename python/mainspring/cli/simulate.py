@@ -102,8 +102,8 @@ def account(mechanism: "ms.Mechanism", result: Simulation) -> None:
         )
         for p, q in result.positions.items()
     )
-    tables.show("at the end", ("part", "position", "velocity"), rows)
-    tables.show("energy", ("account", "amount"), energy_rows(result))
+    tables.show("at the end", ("part", "position", "velocity"), rows, numeric=(1, 2))
+    tables.show("energy", ("account", "amount"), energy_rows(result), numeric=(1,))
     counts = (f"{k} {v:.3g}" if isinstance(v, float) else f"{k} {v}" for k, v in result.stats.items())
     print("\nwork: " + ", ".join(counts))
 

@@ -4,13 +4,16 @@ import math
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
+from typing import Literal
 
 _NARROWEST = 60
 _WIDEST = 140
 
 
-def show(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-    """Print one table under its title; nothing when there are no rows."""
+def show(
+    title: str, heads: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[int] = ()
+) -> None:
+    """Print one table under its title, `numeric` columns to the right; nothing when there are no rows."""
     from rich.console import Console
     from rich.table import Table
 
@@ -22,7 +25,8 @@ def show(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Non
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim", title_justify="left")
     for index, head in enumerate(heads):
         last = index == len(heads) - 1
-        table.add_column(head, overflow="fold", no_wrap=not last, min_width=len(head))
+        side: Literal["left", "right"] = "right" if index in numeric else "left"
+        table.add_column(head, overflow="fold", no_wrap=not last, min_width=len(head), justify=side)
     for row in found:
         table.add_row(*row)
     console.print()
@@ -31,8 +35,8 @@ def show(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Non
 
 
 def degrees(radians: float, digits: int = 6) -> str:
-    """Return an angle in degrees with a real minus sign."""
-    return f"{signed(math.degrees(radians), digits)}°"
+    """Return an angle in degrees, to a ten-thousandth at best, with a real minus sign."""
+    return f"{signed(round(math.degrees(radians), 4), digits)}°"
 
 
 def signed(value: float, digits: int = 6) -> str:
