@@ -116,7 +116,8 @@ fn part_of(resolved: &Resolved, attribute: &Attribute, solid: u32, parts: &[u32]
     parts.iter().position(|p| *p == solid).ok_or_else(|| {
         let known: Vec<&str> = parts.iter().map(|p| resolved.name_of_definition(*p)).collect();
         let (what, key) = (quote(resolved.name(attribute.name)), attribute.key.name());
-        let message = format!("{what} is not a part and has no {key}; expected {}", names::list(&known));
+        let message =
+            format!("{what} is not a part, and {key} is said of parts; expected {}", names::list(&known));
         Fault::new(attribute.place, message)
     })
 }

@@ -11,6 +11,9 @@ pub struct Place {
     pub column: u32,
 }
 
+/// What stands for a file's name in errors about `--set`.
+pub(crate) const SETTING_FILE: &str = "--set";
+
 impl Place {
     /// The place of everything given by `--set`.
     pub const SETTING: Self = Self { file: 2, line: 1, column: 1 };

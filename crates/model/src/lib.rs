@@ -8,6 +8,7 @@ mod attributes;
 mod build;
 mod description;
 mod error;
+mod evaluate;
 mod expand;
 mod expression;
 mod lexer;
@@ -35,4 +36,4 @@ pub use description::{
 pub use error::{Error, Place, quote};
 pub use expression::Expression;
 pub use machine::Machine;
-pub use values::{Overrides, Values};
+pub use values::{Overrides, Values, parse_setting};

@@ -6,13 +6,14 @@ const LISTED: usize = 8;
 /// Longest name that is compared; longer ones are no slips of the pen.
 const COMPARED: usize = 40;
 
-/// The name nearest to `wanted` in any letter case, if it differs by at most a third of its letters.
+/// The name nearest to `wanted` in any letter case, if few letters differ (one of two to four, two of five to
+/// seven, and so on).
 pub(crate) fn nearest<'a>(known: impl IntoIterator<Item = &'a str>, wanted: &str) -> Option<&'a str> {
-    if wanted.len() > COMPARED {
+    if wanted.is_empty() || wanted.len() > COMPARED {
         return None;
     }
     let wanted = wanted.to_ascii_lowercase();
-    let allowed = (wanted.len() / 3).max(1);
+    let allowed = (wanted.len() + 1) / 3;
     let mut best: Option<(usize, &str)> = None;
     for name in known.into_iter().filter(|n| n.len().abs_diff(wanted.len()) <= allowed) {
         let distance = edits(&wanted, &name.to_ascii_lowercase());
@@ -45,18 +46,22 @@ pub(crate) fn list(known: &[&str]) -> String {
     }
 }
 
-/// Number of letters to insert, delete or replace (Levenshtein distance).
+/// Number of letters to insert, delete, replace, or exchange with a neighbour (restricted Damerau–Levenshtein).
 fn edits(a: &str, b: &str) -> usize {
-    let b = b.as_bytes();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.bytes().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = corner + usize::from(x != *y);
-            corner = row[j + 1];
-            row[j + 1] = replaced.min(corner + 1).min(row[j] + 1);
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut before: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1];
+        for j in 0..b.len() {
+            let replaced = last[j] + usize::from(a[i] != b[j]);
+            let mut least = replaced.min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                least = least.min(before[j - 1] + 1);
+            }
+            row.push(least);
         }
+        before = std::mem::replace(&mut last, row);
     }
-    row[b.len()]
+    last[b.len()]
 }

@@ -105,6 +105,9 @@ impl Parser<'_> {
                 self.close(b')', "an operator or ")?;
                 Ok(term)
             }
+            _ if self.token.is_end() => {
+                Err(self.unexpected("a number or a solid (a line that goes on needs `\\` at its end)"))
+            }
             _ => Err(self.unexpected("a number, a name, a primitive or `(`")),
         }
     }
@@ -150,7 +153,8 @@ impl Parser<'_> {
         if count < least || (count > least && !more) {
             let or_more = if more { " or more" } else { "" };
             let name = function.name();
-            let message = format!("{name} has {count} arguments; expected {least}{or_more}");
+            let plural = if count == 1 { "" } else { "s" };
+            let message = format!("{name} has {count} argument{plural}; expected {least}{or_more}");
             return Err(Fault::new(word.place, message));
         }
         self.arithmetic(Op::Call(function, count as u32), word.place, &terms)

@@ -122,7 +122,7 @@ impl Parser<'_> {
     fn size(&mut self, kind: ShapeKind, sizes: &mut [Option<crate::syntax::Ops>; 3]) -> Read<()> {
         let known = kind.sizes();
         let word =
-            self.expect_word(&format!("a size by its name, {} of {}", names::list(known), kind.name()))?;
+            self.expect_word(&format!("a size of {} by its name, {}", kind.name(), names::list(known)))?;
         let Some(slot) = known.iter().position(|n| word.is_word(n)) else {
             return Err(unknown(&format!("size of {}", kind.name()), &word, known));
         };

@@ -86,7 +86,6 @@ impl ShapeText {
     }
 
     fn not_positive(&self, name: &str, size: f64, place: Place) -> Box<Fault> {
-        let word = self.kind.name();
-        Fault::new(place, format!("size {name} of {word} is {size}; expected a positive number"))
+        Fault::new(place, format!("size {name} of {} is {size}; expected a positive number", self.label))
     }
 }

@@ -26,8 +26,7 @@ fn parts_are_the_operands_of_asb() {
 #[test]
 fn numeric_definitions_are_parameters() {
     let machine = escapement();
-    let found: Vec<(&str, Option<f64>, Option<(f64, f64)>)> =
-        machine.parameters().iter().map(|p| (p.name.as_str(), p.default, p.range)).collect();
+    let found: Vec<_> = machine.parameters().iter().map(|p| (p.name.as_str(), p.default, p.range)).collect();
     let expected = [
         ("gap", Some(36.0), Some((30.0, 40.0))),
         ("entry_tip", Some(7.0), None),
