@@ -1,1 +1,29 @@
-//! (see docs/architecture.md)
+//! Rigid contact and motion: impacts, contact modes as explicit state, event location, trajectories, energy.
+//!
+//! Gelsey 1995, Appendix A (the *global* model), with contacts as projections onto `G q̇ ≥ 0` in place of the
+//! elimination of coordinates.
+
+mod complementarity;
+mod component;
+mod energy;
+mod events;
+mod flight;
+mod linear;
+mod minima;
+mod path;
+mod place;
+mod runge_kutta;
+mod search;
+mod settle;
+mod simulation;
+mod tableau;
+mod watch;
+mod world;
+
+pub use energy::{Energy, kinetic, potential};
+pub use events::{Event, EventKind};
+pub use flight::{Bounds, Flight, State};
+pub use minima::{Minimum, MinimumFinder};
+pub use path::{Path, Piece, Trajectory};
+pub use settle::Closed;
+pub use simulation::{Options, Simulation, Stats, Status};

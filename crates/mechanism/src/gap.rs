@@ -221,3 +221,13 @@ impl GapState {
         self.normal.dot(bias) - 2.0 * turning * self.normal.dot(velocity.perp())
     }
 }
+
+impl GapState {
+    /// Distance of the centres of two round features; infinite against an edge.
+    pub fn distance_of_centers(&self) -> f64 {
+        if self.edge_margin.is_finite() {
+            return f64::INFINITY;
+        }
+        if self.curvature == 0.0 { 0.0 } else { 1.0 / self.curvature.abs() }
+    }
+}

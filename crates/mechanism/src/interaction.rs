@@ -24,12 +24,18 @@ pub struct Interaction {
     /// Greatest lever arms: how far a feature moves at most per unit of a joint's own position, by joint of the
     /// chain. For the first and the second body.
     pub levers: ([f64; MAX_CHAIN], [f64; MAX_CHAIN]),
+    /// Which features are no surfaces of the bodies' own pair.
+    usable: (Vec<bool>, Vec<bool>),
     height_tolerance: f64,
 }
 
 impl Interaction {
-    /// The kind of contact of two features, or None if they never lie in a common layer.
-    pub fn kind(&self, _ids: (usize, usize), features: (&Feature, &Feature)) -> Option<GapKind> {
+    /// The kind of contact of two features (named by index); None if they are surfaces of the bodies' own pair or
+    /// never lie in a common layer.
+    pub fn kind(&self, ids: (usize, usize), features: (&Feature, &Feature)) -> Option<GapKind> {
+        if !self.usable.0[ids.0] || !self.usable.1[ids.1] {
+            return None;
+        }
         let kind = GapKind::of(features.0, features.1)?;
         features.0.shares_height(features.1, self.height_tolerance).then_some(kind)
     }
@@ -103,7 +109,8 @@ fn interaction(
     let chosen_b: Vec<usize> = (0..fb.len()).filter(|&j| chosen_a.iter().any(|&i| meets(i, j))).collect();
     let levers = (levers(a, fa, &chosen_a), levers(b, fb, &chosen_b));
     let trees = (FeatureTree::new(fa, chosen_a), FeatureTree::new(fb, chosen_b));
-    Some(Interaction { bodies: pair, trees, levers, height_tolerance })
+    let usable = (fa.iter().map(usable).collect(), fb.iter().map(usable).collect());
+    Some(Interaction { bodies: pair, trees, levers, usable, height_tolerance })
 }
 
 /// A curve is excluded when its owner or an alias is; a corner when both of its sides are.

@@ -20,6 +20,8 @@ pub struct ContactId {
 pub struct Candidate {
     pub id: ContactId,
     pub kind: GapKind,
+    /// A lower bound of the distance between the two features at the poses asked about.
+    pub distance: f64,
 }
 
 /// Where candidates come from: direct search, or a map made once. Sources give identities and bounds; gaps come
@@ -35,7 +37,7 @@ pub trait ContactSource {
         b: &Pose,
         reach: f64,
         found: &mut Vec<Candidate>,
-    ) -> f64;
+    );
 }
 
 /// Direct search through two trees of discs.
@@ -53,11 +55,10 @@ impl ContactSource for DirectSearch<'_> {
         b: &Pose,
         reach: f64,
         found: &mut Vec<Candidate>,
-    ) -> f64 {
+    ) {
         let pair = &self.interactions[interaction];
         let (fa, fb) = (&self.features[pair.bodies.0], &self.features[pair.bodies.1]);
         let start = found.len();
-        let mut bound = reach;
         // Poses relative to the second body: its own nodes then need no motion.
         let relative = relative_pose(a, b);
         let mut pending = vec![(0usize, 0usize)];
@@ -77,8 +78,7 @@ impl ContactSource for DirectSearch<'_> {
                     if distance < reach {
                         let (first, second) = (ids.0 as u32, ids.1 as u32);
                         let id = ContactId { interaction: interaction as u32, first, second };
-                        found.push(Candidate { id, kind });
-                        bound = bound.min(distance);
+                        found.push(Candidate { id, kind, distance });
                     }
                 }
                 (false, true) => pending.extend([(m.link, j), (i + 1, j)]),
@@ -88,7 +88,6 @@ impl ContactSource for DirectSearch<'_> {
             }
         }
         found[start..].sort_by_key(|c| c.id);
-        bound
     }
 }
 

@@ -1,0 +1,215 @@
+//! Coordinates that move together: their equations with closed contacts as constraints, integrated step by step.
+//!
+//! `M q̈ = f(q, q̇) + Gᵀ λ` with `G q̈ + γ = 0`, so `(G M⁻¹ Gᵀ) λ = −(G M⁻¹ f + γ)`. No coordinate is eliminated, so
+//! dead points need no care; after each step positions and velocities are projected back onto g = 0, G q̇ = 0.
+
+use crate::flight::Bounds;
+use crate::linear::Cholesky;
+use crate::path::Path;
+use crate::runge_kutta::{Equations, Step};
+use crate::settle::{add_forces, inverse_inertia};
+use crate::world::{Touch, World};
+use mainspring_mechanism::{Candidate, Placed, Row};
+
+/// A moving group of coordinates with the contacts it rests on (independent rows).
+#[derive(Clone, Debug, Default)]
+pub struct Component {
+    pub coordinates: Vec<usize>,
+    pub contacts: Vec<Candidate>,
+    /// Bodies its contacts involve, and for each contact their places in that list.
+    bodies: Vec<usize>,
+    sides: Vec<(usize, usize)>,
+    step: Step,
+}
+
+/// The outcome of a step.
+pub struct Advance {
+    pub h: f64,
+    /// Proposed length of the next step.
+    pub next: f64,
+    pub paths: Vec<(usize, Path)>,
+    /// Contacts (by place in `contacts`) whose force was negative at some stage.
+    pub pulling: Vec<bool>,
+}
+
+/// Tolerances of integration: scales of position and velocity by coordinate, times the relative tolerance.
+pub struct Tolerance<'a> {
+    pub relative: f64,
+    pub positions: &'a [f64],
+    pub speeds: &'a [f64],
+    pub shortest: f64,
+}
+
+impl Component {
+    pub fn new(world: &World, coordinates: Vec<usize>, contacts: Vec<Candidate>) -> Self {
+        let mut bodies = Vec::new();
+        let mut place = |body: usize| match bodies.iter().position(|&b| b == body) {
+            Some(i) => i,
+            None => {
+                bodies.push(body);
+                bodies.len() - 1
+            }
+        };
+        let sides = contacts
+            .iter()
+            .map(|c| {
+                let (a, b) = world.bodies(c);
+                (place(a), place(b))
+            })
+            .collect();
+        Self { coordinates, contacts, bodies, sides, step: Step::default() }
+    }
+
+    /// Evaluates the component's contacts at `q`.
+    pub fn touches(&self, world: &mut World, q: &[f64]) -> Vec<Touch> {
+        let placed: Vec<Placed> =
+            self.bodies.iter().map(|&b| Placed::new(&world.system.bodies[b], q)).collect();
+        self.contacts
+            .iter()
+            .zip(&self.sides)
+            .map(|(c, &(a, b))| world.touch_placed(c, (placed[a], placed[b])))
+            .collect()
+    }
+
+    /// Forces of the contacts, and accelerations of all coordinates they touch added to `acceleration`. None if
+    /// the contacts are not independent here.
+    pub fn forces(&self, world: &mut World, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Option<Vec<f64>> {
+        for &i in &self.coordinates {
+            acceleration[i] = world.system.coordinates[i].free_acceleration(q[i], v[i]);
+        }
+        let touches = self.touches(world, q);
+        let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
+        let mut lambda: Vec<f64> =
+            touches.iter().zip(&rows).map(|(t, row)| -(row.dot(acceleration) + t.bias(v))).collect();
+        let factor = Cholesky::new(inverse_inertia(world.system, &rows), rows.len())?;
+        factor.solve_in_place(&mut lambda);
+        add_forces(world.system, &rows, &lambda, acceleration);
+        Some(lambda)
+    }
+
+    /// Takes one step of at most `longest` from (t, q, v), trying `h` first and halving until the error fits.
+    /// None if even the shortest step does not.
+    pub fn advance(
+        &mut self,
+        world: &mut World,
+        (t, q, v): (f64, &[f64], &[f64]),
+        h: f64,
+        longest: f64,
+        tolerance: &Tolerance,
+    ) -> Option<Advance> {
+        let n = self.coordinates.len();
+        let y: Vec<f64> = self.coordinates.iter().map(|&i| q[i]).chain(self.coordinates.iter().map(|&i| v[i])).collect();
+        let mut step = std::mem::take(&mut self.step);
+        step.resize(2 * n);
+        let mut h = h.min(longest);
+        let result = loop {
+            if h < tolerance.shortest {
+                break None;
+            }
+            let mut equations = ComponentEquations::new(self, world, q, v);
+            let scale = self.scale(&equations.start_acceleration(t, &y), h, tolerance);
+            let error = step.attempt(&mut equations, t, &y, h, &scale);
+            let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 6.0) } else { 0.1 };
+            if error.is_finite() && error <= 1.0 && !equations.singular {
+                let pulling = equations.pulling.clone();
+                let dense = step.dense(&mut equations, t, &y, h);
+                let paths = self.paths(&step, &dense, t, h);
+                break Some(Advance { h, next: h * factor, paths, pulling });
+            }
+            h *= factor.min(0.5);
+        };
+        self.step = step;
+        result
+    }
+
+    fn scale(&self, acceleration: &[f64], h: f64, tolerance: &Tolerance) -> Vec<f64> {
+        let positions = self.coordinates.iter().map(|&i| tolerance.relative * tolerance.positions[i]);
+        let speeds = self
+            .coordinates
+            .iter()
+            .zip(acceleration)
+            .map(|(&i, a)| tolerance.relative * tolerance.speeds[i].max(a.abs() * h).max(f64::MIN_POSITIVE));
+        positions.chain(speeds).collect()
+    }
+
+    /// Bounds over the step are those of its stages with a quarter added: the step's error is controlled.
+    fn paths(&self, step: &Step, dense: &[crate::runge_kutta::Polynomial], t: f64, h: f64) -> Vec<(usize, Path)> {
+        let n = self.coordinates.len();
+        let greatest = |unknown: usize| {
+            (0..=crate::tableau::STAGES).map(|s| step.stage_derivative(s, unknown).abs()).fold(0.0, f64::max) * 1.25
+        };
+        (0..n)
+            .map(|k| {
+                let bounds = Bounds { speed: greatest(k), acceleration: greatest(n + k) };
+                (self.coordinates[k], Path::Step { t0: t, h, q: dense[k], v: dense[n + k], bounds })
+            })
+            .collect()
+    }
+
+    /// Moves `q` onto g = 0 and `v` onto G q̇ = 0 along M⁻¹ Gᵀ: the nearest state in the metric of inertia.
+    pub fn project(&self, world: &mut World, q: &mut [f64], v: &mut [f64]) {
+        for _ in 0..3 {
+            let touches = self.touches(world, q);
+            let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
+            let Some(factor) = Cholesky::new(inverse_inertia(world.system, &rows), rows.len()) else { return };
+            let gaps: Vec<f64> = touches.iter().map(|t| -t.state.gap).collect();
+            let rates: Vec<f64> = touches.iter().map(|t| -t.rate(v)).collect();
+            add_forces(world.system, &rows, &factor.solve(&rates), v);
+            if gaps.iter().all(|g| g.abs() <= 0.1 * crate::search::CLOSED * world.system.size) {
+                return;
+            }
+            add_forces(world.system, &rows, &factor.solve(&gaps), q);
+        }
+    }
+}
+
+struct ComponentEquations<'c, 'w> {
+    component: &'c Component,
+    world: &'c mut World<'w>,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    acceleration: Vec<f64>,
+    pulling: Vec<bool>,
+    singular: bool,
+}
+
+impl<'c, 'w> ComponentEquations<'c, 'w> {
+    fn new(component: &'c Component, world: &'c mut World<'w>, q: &[f64], v: &[f64]) -> Self {
+        Self {
+            component,
+            world,
+            q: q.to_vec(),
+            v: v.to_vec(),
+            acceleration: vec![0.0; q.len()],
+            pulling: vec![false; component.contacts.len()],
+            singular: false,
+        }
+    }
+
+    fn start_acceleration(&mut self, t: f64, y: &[f64]) -> Vec<f64> {
+        let mut dy = vec![0.0; y.len()];
+        self.derivative(t, y, &mut dy);
+        dy.split_off(y.len() / 2)
+    }
+}
+
+impl Equations for ComponentEquations<'_, '_> {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        let n = self.component.coordinates.len();
+        for (k, &i) in self.component.coordinates.iter().enumerate() {
+            (self.q[i], self.v[i]) = (y[k], y[n + k]);
+        }
+        match self.component.forces(self.world, &self.q, &self.v, &mut self.acceleration) {
+            Some(lambda) => {
+                for (flag, l) in self.pulling.iter_mut().zip(lambda) {
+                    *flag |= l < 0.0;
+                }
+            }
+            None => self.singular = true,
+        }
+        for (k, &i) in self.component.coordinates.iter().enumerate() {
+            dy[k] = self.v[i];
+            dy[n + k] = self.acceleration[i];
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The energy account of a run: what was there, what is left, what friction and impacts took.
+
+use crate::path::Path;
+use mainspring_mechanism::System;
+
+/// Energies in the file's units; losses are positive.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Kinetic and elastic energy at the start.
+    pub initial: f64,
+    /// Kinetic and elastic energy at the end.
+    pub last: f64,
+    /// Lost to viscous friction: ∫ Σ h q̇² dt, by quadrature of the motion and not by difference.
+    pub friction: f64,
+    /// Lost at impacts: Σ ½ Δq̇ᵀ M Δq̇.
+    pub impacts: f64,
+    /// Greatest kinetic energy.
+    pub kinetic_max: f64,
+}
+
+impl Energy {
+    /// `(initial − last − friction − impacts) / max(friction + impacts, kinetic_max)`; 0 when nothing moved.
+    pub fn residual(&self) -> f64 {
+        let scale = (self.friction + self.impacts).max(self.kinetic_max);
+        if scale > 0.0 { (self.initial - self.last - self.friction - self.impacts) / scale } else { 0.0 }
+    }
+}
+
+/// Kinetic energy at velocities `v`.
+pub fn kinetic(system: &System, v: &[f64]) -> f64 {
+    system.coordinates.iter().zip(v).map(|(c, v)| 0.5 * c.inertia * v * v).sum()
+}
+
+/// Elastic energy at positions `q`.
+pub fn potential(system: &System, q: &[f64]) -> f64 {
+    system.coordinates.iter().zip(q).map(|(c, q)| c.potential(*q)).sum()
+}
+
+/// Friction loss of all coordinates over a stretch.
+pub fn friction_loss(system: &System, paths: &[Path], from: f64, to: f64) -> f64 {
+    system
+        .coordinates
+        .iter()
+        .zip(paths)
+        .filter(|(c, path)| c.damping > 0.0 && !path.is_rest())
+        .map(|(c, path)| c.damping * squared_speed(path, from, to))
+        .sum()
+}
+
+/// Nodes and weights of Gauss–Legendre quadrature of eight points on [−1, 1]: exact for degree 15.
+const NODES: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_27),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// ∫ v² dt. Panels are short against the flight's own times; for decaying flights they grow with the time passed.
+fn squared_speed(path: &Path, from: f64, to: f64) -> f64 {
+    let (first, growth) = match path {
+        Path::Flight(flight) => flight.panel(),
+        _ => (to - from, 1.0),
+    };
+    let (mut at, mut length, mut sum) = (from, first, 0.0);
+    for _ in 0..10_000 {
+        let end = to.min(at + length);
+        sum += panel(path, at, end);
+        if end >= to {
+            break;
+        }
+        at = end;
+        length *= growth;
+    }
+    sum
+}
+
+fn panel(path: &Path, from: f64, to: f64) -> f64 {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let square = |t: f64| path.at(t).v.powi(2);
+    NODES.iter().map(|(x, w)| w * (square(middle - half * x) + square(middle + half * x))).sum::<f64>() * half
+}

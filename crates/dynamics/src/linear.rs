@@ -1,0 +1,57 @@
+//! Dense symmetric systems of a few unknowns.
+
+/// A factor `L Lᵀ` of a positive definite matrix.
+#[derive(Clone, Debug)]
+pub struct Cholesky {
+    factor: Vec<f64>,
+    n: usize,
+}
+
+impl Cholesky {
+    /// Factors an `n × n` matrix in row order; None when a pivot falls below 1e-12 of its diagonal entry.
+    pub fn new(mut a: Vec<f64>, n: usize) -> Option<Self> {
+        for j in 0..n {
+            let diagonal = a[j * n + j];
+            for k in 0..j {
+                a[j * n + j] -= a[j * n + k] * a[j * n + k];
+            }
+            let pivot = a[j * n + j];
+            if pivot <= 1e-12 * diagonal || !pivot.is_finite() {
+                return None;
+            }
+            let root = pivot.sqrt();
+            a[j * n + j] = root;
+            for i in j + 1..n {
+                for k in 0..j {
+                    a[i * n + j] -= a[i * n + k] * a[j * n + k];
+                }
+                a[i * n + j] /= root;
+            }
+        }
+        Some(Self { factor: a, n })
+    }
+
+    /// Solves `A x = b`.
+    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+        let mut x = b.to_vec();
+        self.solve_in_place(&mut x);
+        x
+    }
+
+    /// Replaces b by the solution of `A x = b`.
+    pub fn solve_in_place(&self, x: &mut [f64]) {
+        let (l, n) = (&self.factor, self.n);
+        for i in 0..n {
+            for k in 0..i {
+                x[i] -= l[i * n + k] * x[k];
+            }
+            x[i] /= l[i * n + i];
+        }
+        for i in (0..n).rev() {
+            for k in i + 1..n {
+                x[i] -= l[k * n + i] * x[k];
+            }
+            x[i] /= l[i * n + i];
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Minima of the kinetic energy, on the dense motion and at impacts (Gelsey 1995, Sec. 3.1, corrected: never at
+//! step ends, since one closed-form step may span seconds).
+//!
+//! Zeros of `P = Σ I q̇ q̈` are isolated by bisection: a stretch whose middle has `|P|` above the bound of `|Ṗ|` times
+//! half its length has none.
+
+use crate::flight::Bounds;
+use crate::path::Path;
+use mainspring_mechanism::System;
+
+/// A local minimum of the kinetic energy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Minimum {
+    pub t: f64,
+    pub energy: f64,
+    /// Greatest kinetic energy up to here.
+    pub top: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    /// Whether an impact made it.
+    pub at_impact: bool,
+}
+
+/// Deepest bisection of one stretch.
+const DEEPEST: u32 = 40;
+
+/// Follows the kinetic energy along a run.
+#[derive(Clone, Debug, Default)]
+pub struct MinimumFinder {
+    pub found: Vec<Minimum>,
+    /// Greatest kinetic energy so far.
+    pub top: f64,
+    /// Whether the energy was last seen falling, and where a flat stretch at the bottom began.
+    falling: bool,
+    flat_since: Option<f64>,
+}
+
+/// A stretch of motion with the system it belongs to.
+struct Motion<'a> {
+    system: &'a System,
+    paths: &'a [Path],
+}
+
+/// Energy and power (rate of kinetic energy) at one time.
+#[derive(Clone, Copy)]
+struct Sample {
+    t: f64,
+    energy: f64,
+    power: f64,
+}
+
+impl MinimumFinder {
+    /// Follows one stretch without events inside.
+    pub fn stretch(&mut self, system: &System, paths: &[Path], from: f64, to: f64) {
+        if to <= from {
+            return;
+        }
+        let motion = Motion { system, paths };
+        let mut samples = vec![motion.sample(from)];
+        motion.subdivide(from, to, 0, &mut samples);
+        samples.push(motion.sample(to));
+        for pair in samples.windows(2) {
+            self.between(&motion, pair[0], pair[1]);
+        }
+    }
+
+    /// An impact took kinetic energy at time `t`: the energy fell there.
+    pub fn impact(&mut self, loss: f64, t: f64) {
+        if loss > 0.0 {
+            self.falling = true;
+            self.flat_since = Some(t);
+        }
+    }
+
+    /// The power changes sign at most once between two neighbouring samples.
+    fn between(&mut self, motion: &Motion, a: Sample, b: Sample) {
+        self.top = self.top.max(a.energy).max(b.energy);
+        if a.power < 0.0 && b.power > 0.0 {
+            let t = motion.zero(a, b);
+            self.record(motion, t, false);
+            self.falling = false;
+            return;
+        }
+        if a.power > 0.0 && b.power < 0.0 {
+            self.top = self.top.max(motion.sample(motion.zero(b, a)).energy);
+        }
+        if (a.power > 0.0 || b.power > 0.0) && self.falling && a.power >= 0.0 {
+            let impact = self.flat_since.is_some();
+            self.record(motion, self.flat_since.unwrap_or(a.t), impact);
+            self.falling = false;
+        }
+        if b.power < 0.0 {
+            self.falling = true;
+            self.flat_since = None;
+        } else if b.power > 0.0 {
+            self.falling = false;
+            self.flat_since = None;
+        } else if self.falling && self.flat_since.is_none() {
+            self.flat_since = Some(b.t);
+        }
+    }
+
+    fn record(&mut self, motion: &Motion, t: f64, at_impact: bool) {
+        let state: Vec<_> = motion.paths.iter().map(|p| p.at(t)).collect();
+        let (q, v) = (state.iter().map(|s| s.q).collect(), state.iter().map(|s| s.v).collect::<Vec<f64>>());
+        let energy = crate::energy::kinetic(motion.system, &v);
+        self.found.push(Minimum { t, energy, top: self.top, q, v, at_impact });
+    }
+}
+
+impl Motion<'_> {
+    fn sample(&self, t: f64) -> Sample {
+        let (mut energy, mut power) = (0.0, 0.0);
+        for (c, path) in self.system.coordinates.iter().zip(self.paths) {
+            let (state, acceleration) = path.with_acceleration(t);
+            energy += 0.5 * c.inertia * state.v * state.v;
+            power += c.inertia * state.v * acceleration;
+        }
+        Sample { t, energy, power }
+    }
+
+    /// A bound of |Ṗ| = |Σ I (q̈² + q̇ q⃛)| from `t` for a time `dt`.
+    fn bend(&self, t: f64, dt: f64) -> f64 {
+        let one = |(c, path): (&mainspring_mechanism::Coordinate, &Path)| {
+            let bounds: Bounds = path.bounds(path.at(t), dt);
+            c.inertia * (bounds.acceleration * bounds.acceleration + bounds.speed * path.jerk(bounds))
+        };
+        self.system.coordinates.iter().zip(self.paths).map(one).sum()
+    }
+
+    /// Adds samples inside (from, to) until the power changes sign at most once between neighbours.
+    fn subdivide(&self, from: f64, to: f64, depth: u32, samples: &mut Vec<Sample>) {
+        let middle = self.sample(0.5 * (from + to));
+        let half = 0.5 * (to - from);
+        let certain = middle.power.abs() > self.bend(from, to - from) * half;
+        if certain || depth >= DEEPEST || half <= 1e-12 * (1.0 + to.abs()) {
+            samples.push(middle);
+            return;
+        }
+        let short = depth >= 5 && self.is_monotone(from, to);
+        if !short {
+            self.subdivide(from, middle.t, depth + 1, samples);
+        }
+        samples.push(middle);
+        if !short {
+            self.subdivide(middle.t, to, depth + 1, samples);
+        }
+    }
+
+    /// Whether the power changes too little over the stretch for a second sign change to matter: its rate keeps
+    /// one sign at five places.
+    fn is_monotone(&self, from: f64, to: f64) -> bool {
+        let powers: Vec<f64> =
+            (0..=8).map(|k| self.sample(from + (to - from) * f64::from(k) / 8.0).power).collect();
+        powers.windows(2).all(|p| p[1] >= p[0]) || powers.windows(2).all(|p| p[1] <= p[0])
+    }
+
+    /// The zero of the power between a sample where it is negative and one where it is positive.
+    fn zero(&self, negative: Sample, positive: Sample) -> f64 {
+        let (mut a, mut b) = (negative, positive);
+        for _ in 0..200 {
+            let linear = a.t - a.power * (b.t - a.t) / (b.power - a.power);
+            let middle = 0.5 * (a.t + b.t);
+            // Secant steps, with a bisection whenever they would shrink the bracket slowly.
+            for t in [linear, middle] {
+                let s = self.sample(t);
+                if s.power < 0.0 {
+                    a = s;
+                } else {
+                    b = s;
+                }
+            }
+            if (b.t - a.t).abs() <= 4.0 * f64::EPSILON * (1.0 + b.t.abs()) {
+                break;
+            }
+        }
+        if a.energy <= b.energy { a.t } else { b.t }
+    }
+}

@@ -1,0 +1,111 @@
+//! The motion of one coordinate between two events: at rest, in closed-form flight, or along an integrated step.
+
+use crate::flight::{Bounds, Flight, State};
+use crate::runge_kutta::Polynomial;
+
+/// A coordinate's motion as a function of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Path {
+    Rest { q: f64 },
+    Flight(Flight),
+    /// A step of the integrator, with bounds that hold over all of it.
+    Step { t0: f64, h: f64, q: Polynomial, v: Polynomial, bounds: Bounds },
+}
+
+impl Path {
+    /// Position and velocity at time `t` within the path's stretch.
+    pub fn at(&self, t: f64) -> State {
+        match self {
+            Path::Rest { q } => State { q: *q, v: 0.0 },
+            Path::Flight(flight) => flight.at(t),
+            Path::Step { t0, h, q, v, .. } => {
+                let x = (t - t0) / h;
+                State { q: q.at(x), v: v.at(x) }
+            }
+        }
+    }
+
+    /// Bounds of speed and acceleration from time `t`, where the state is `state`, for a time `dt`.
+    pub fn bounds(&self, state: State, dt: f64) -> Bounds {
+        match self {
+            Path::Rest { .. } => Bounds::default(),
+            Path::Flight(flight) => flight.bounds(state, dt),
+            Path::Step { bounds, .. } => {
+                let linear = state.v.abs() + bounds.acceleration * dt;
+                Bounds { speed: bounds.speed.min(linear), ..*bounds }
+            }
+        }
+    }
+
+    pub fn is_rest(&self) -> bool {
+        matches!(self, Path::Rest { .. })
+    }
+}
+
+/// A path with the stretch of time it covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    pub from: f64,
+    pub to: f64,
+    pub path: Path,
+}
+
+/// The motion of all coordinates over a run: for each, pieces that follow each other without holes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    pub pieces: Vec<Vec<Piece>>,
+    /// Times of accepted steps and events, increasing, from 0 to the end.
+    pub times: Vec<f64>,
+}
+
+impl Trajectory {
+    /// State of coordinate `i` at time `t`, clamped to the run; just after an event at exactly `t`.
+    pub fn state(&self, i: usize, t: f64) -> State {
+        self.find(i, t, false)
+    }
+
+    /// State of coordinate `i` just before any event at exactly `t`.
+    pub fn state_before(&self, i: usize, t: f64) -> State {
+        self.find(i, t, true)
+    }
+
+    fn find(&self, i: usize, t: f64, before: bool) -> State {
+        let pieces = &self.pieces[i];
+        let after = pieces.partition_point(|p| if before { p.from < t } else { p.from <= t });
+        match pieces.get(after.saturating_sub(1)) {
+            Some(piece) => piece.path.at(t.clamp(piece.from, piece.to)),
+            None => State::default(),
+        }
+    }
+
+    /// The end of the run.
+    pub fn end(&self) -> f64 {
+        self.times.last().copied().unwrap_or(0.0)
+    }
+}
+
+impl Path {
+    /// State and acceleration at time `t`.
+    pub fn with_acceleration(&self, t: f64) -> (State, f64) {
+        match self {
+            Path::Rest { q } => (State { q: *q, v: 0.0 }, 0.0),
+            Path::Flight(flight) => {
+                let state = flight.at(t);
+                (state, flight.acceleration(state))
+            }
+            Path::Step { t0, h, q, v, .. } => {
+                let x = (t - t0) / h;
+                (State { q: q.at(x), v: v.at(x) }, v.slope(x) / h)
+            }
+        }
+    }
+
+    /// A bound of the rate of change of acceleration under `bounds`; an estimate along integrated steps.
+    pub fn jerk(&self, bounds: Bounds) -> f64 {
+        match self {
+            Path::Rest { .. } => 0.0,
+            Path::Flight(flight) => flight.jerk(bounds),
+            Path::Step { h, .. } => 2.0 * bounds.acceleration / h,
+        }
+    }
+}

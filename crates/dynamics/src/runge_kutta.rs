@@ -1,0 +1,144 @@
+//! One step of the Runge–Kutta method of order 8 with dense output (DOP853, see `tableau`).
+
+use crate::tableau::{A, C, D, DENSE_STAGES, E3, E5, POWERS, STAGES};
+
+/// The right-hand side: derivative of `y` at time `t` into `dy`.
+pub trait Equations {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
+}
+
+/// A step from (t, y) to (t + h, end), with what dense output needs.
+#[derive(Clone, Debug, Default)]
+pub struct Step {
+    n: usize,
+    /// Stage derivatives, one row of n a stage.
+    k: Vec<f64>,
+    /// Result of the step.
+    pub end: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+impl Step {
+    /// Prepares space for `n` unknowns.
+    pub fn resize(&mut self, n: usize) {
+        self.n = n;
+        self.k.resize(DENSE_STAGES * n, 0.0);
+        self.end.resize(n, 0.0);
+        self.scratch.resize(n, 0.0);
+    }
+
+    /// Tries a step; returns the error relative to `scale` (accept when ≤ 1).
+    pub fn attempt(&mut self, f: &mut impl Equations, t: f64, y: &[f64], h: f64, scale: &[f64]) -> f64 {
+        let n = self.n;
+        f.derivative(t, y, &mut self.k[..n]);
+        for stage in 1..=STAGES {
+            self.stage(f, stage, t, y, h);
+        }
+        self.end.copy_from_slice(&self.scratch);
+        let norm = |weights: &[(usize, f64)]| -> f64 {
+            (0..n)
+                .map(|i| weights.iter().map(|&(s, e)| e * self.k[s * n + i]).sum::<f64>() / scale[i])
+                .map(|e| e * e)
+                .sum()
+        };
+        let (five, three) = (norm(E5), norm(E3));
+        if five == 0.0 {
+            return 0.0;
+        }
+        h * five / ((five + 0.01 * three) * n as f64).sqrt()
+    }
+
+    fn stage(&mut self, f: &mut impl Equations, stage: usize, t: f64, y: &[f64], h: f64) {
+        let n = self.n;
+        for i in 0..n {
+            let sum: f64 = A[stage].iter().map(|&(s, a)| a * self.k[s * n + i]).sum();
+            self.scratch[i] = y[i] + h * sum;
+        }
+        let row = stage * n..(stage + 1) * n;
+        f.derivative(t + C[stage] * h, &self.scratch, &mut self.k[row]);
+    }
+
+    /// Derivative of unknown `i` at a stage of the step (12 is the end).
+    pub fn stage_derivative(&self, stage: usize, i: usize) -> f64 {
+        self.k[stage * self.n + i]
+    }
+
+    /// Interpolation polynomials of the accepted step, order 7: one a unknown.
+    pub fn dense(&mut self, f: &mut impl Equations, t: f64, y: &[f64], h: f64) -> Vec<Polynomial> {
+        for stage in STAGES + 1..DENSE_STAGES {
+            self.stage(f, stage, t, y, h);
+        }
+        (0..self.n).map(|i| self.polynomial(i, y[i], h)).collect()
+    }
+
+    fn polynomial(&self, i: usize, start: f64, h: f64) -> Polynomial {
+        let k = |s: usize| self.k[s * self.n + i];
+        let delta = self.end[i] - start;
+        let mut f = [0.0; POWERS];
+        f[0] = delta;
+        f[1] = h * k(0) - delta;
+        f[2] = 2.0 * delta - h * (k(STAGES) + k(0));
+        for (value, row) in f[3..].iter_mut().zip(&D) {
+            *value = h * row.iter().map(|&(s, d)| d * k(s)).sum::<f64>();
+        }
+        Polynomial { start, coefficients: f }
+    }
+}
+
+/// `y(x) = start + x (F₀ + (1−x) (F₁ + x (F₂ + …)))` for x from 0 to 1 over the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polynomial {
+    pub start: f64,
+    coefficients: [f64; POWERS],
+}
+
+impl Polynomial {
+    pub fn at(&self, x: f64) -> f64 {
+        let mut y = 0.0;
+        for (i, f) in self.coefficients.iter().rev().enumerate() {
+            y = (y + f) * if i % 2 == 0 { x } else { 1.0 - x };
+        }
+        self.start + y
+    }
+
+    /// dy/dx.
+    pub fn slope(&self, x: f64) -> f64 {
+        let (mut y, mut dy) = (0.0, 0.0);
+        for (i, f) in self.coefficients.iter().rev().enumerate() {
+            let (factor, sign) = if i % 2 == 0 { (x, 1.0) } else { (1.0 - x, -1.0) };
+            dy = dy * factor + (y + f) * sign;
+            y = (y + f) * factor;
+        }
+        dy
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Equations, Step};
+
+    struct Oscillator;
+    impl Equations for Oscillator {
+        fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+            dy[0] = y[1];
+            dy[1] = -y[0];
+        }
+    }
+
+    fn error(h: f64) -> (f64, f64) {
+        let (y, mut step) = ([0.0, 1.0], Step::default());
+        step.resize(2);
+        step.attempt(&mut Oscillator, 0.0, &y, h, &[1.0, 1.0]);
+        let end = (step.end[0] - h.sin()).abs();
+        let dense = step.dense(&mut Oscillator, 0.0, &y, h);
+        let inside = (1..20).map(|i| f64::from(i) / 20.0);
+        (end, inside.map(|x| (dense[0].at(x) - (x * h).sin()).abs()).fold(0.0, f64::max))
+    }
+
+    #[test]
+    fn orders_are_eight_at_the_end_and_seven_between() {
+        let ((end, inside), (half_end, half_inside)) = (error(0.8), error(0.4));
+        assert!((end / half_end).log2() > 8.5, "local order 9, was {}", (end / half_end).log2());
+        assert!((inside / half_inside).log2() > 7.0, "was {}", (inside / half_inside).log2());
+    }
+}

@@ -1,0 +1,266 @@
+//! The first contact along a motion, by steps that cannot pass one.
+//!
+//! With gap g, rate ġ and |g̈| ≤ B over the stretch, no zero lies before the positive root Δ of
+//! `g + ġ Δ − B Δ²/2 = 0`. Near a zero the steps converge like Newton's; far away they are as long as the bound
+//! allows. Contacts whose features stay apart by their lever arms alone are not evaluated at all.
+
+use crate::flight::{Bounds, State};
+use crate::path::Path;
+use crate::world::{Touch, World};
+use mainspring_mechanism::{Candidate, ContactId, GapKind};
+
+/// A gap this small, relative to the machine's size, is closed.
+pub const CLOSED: f64 = 1e-13;
+/// Contacts this near, relative to the machine's size, are resolved together.
+pub const TOGETHER: f64 = 1e-10;
+/// Contact points this near to the end of a feature, relative to the machine's size, count as at the end.
+pub const BAND: f64 = 1e-9;
+/// Most evaluations along one contact and stretch.
+const MOST_STEPS: usize = 2000;
+
+/// A contact found to close.
+#[derive(Clone, Copy, Debug)]
+pub struct Closing {
+    pub t: f64,
+    pub candidate: Candidate,
+}
+
+/// What the search must leave alone: contacts that are closed, and contacts just released, which are looked for
+/// only after a positive sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watch {
+    Closed,
+    Released,
+}
+
+/// The motion over a stretch: one path a coordinate.
+pub struct Stretch<'p> {
+    pub paths: &'p [Path],
+    pub from: f64,
+    pub to: f64,
+}
+
+impl Stretch<'_> {
+    /// Fills positions and velocities at time `t`.
+    pub fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
+        for (i, path) in self.paths.iter().enumerate() {
+            let State { q: qi, v: vi } = path.at(t);
+            (q[i], v[i]) = (qi, vi);
+        }
+    }
+}
+
+/// Rates of motion of the two sides of an interaction over a stretch.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pace {
+    /// Greatest speed of any feature, first and second body.
+    speed: [f64; 2],
+    acceleration: [f64; 2],
+    turning: [f64; 2],
+    turning_acceleration: [f64; 2],
+}
+
+impl Pace {
+    fn new(world: &World, interaction: usize, stretch: &Stretch, t: f64, until: f64) -> Self {
+        let mut pace = Self::default();
+        for arm in &world.arms[interaction] {
+            let path = &stretch.paths[arm.coordinate];
+            let Bounds { speed, acceleration } = path.bounds(path.at(t), until - t);
+            let side = usize::from(arm.second);
+            pace.speed[side] += arm.length * speed;
+            pace.acceleration[side] += arm.length * acceleration;
+            pace.turning[side] += arm.turn * speed;
+            pace.turning_acceleration[side] += arm.turn * acceleration;
+        }
+        pace
+    }
+
+    fn total(&self) -> f64 {
+        self.speed[0] + self.speed[1]
+    }
+
+    /// A bound of |ġ|, as for `curvature`.
+    fn lipschitz(&self, away: f64) -> f64 {
+        (self.total() + (self.turning[0] + self.turning[1]) * away).max(f64::MIN_POSITIVE)
+    }
+
+    /// A bound of |g̈| for a contact whose round feature stays within `away` of the other feature.
+    fn curvature(&self, kind: GapKind, away: f64, touch: &Touch) -> f64 {
+        let edge = match kind {
+            GapKind::RoundEdge { swapped } => Some(usize::from(!swapped)),
+            _ => None,
+        };
+        let Some(edge) = edge else {
+            let own = |i: usize| self.acceleration[i] + self.turning[i] * self.speed[i];
+            let centers = touch.state.distance_of_centers();
+            return own(0) + own(1) + self.total() * self.total() / (0.5 * centers).max(f64::MIN_POSITIVE);
+        };
+        // The edge's line is carried past its ends: its lever grows by `away`.
+        let speed = |i: usize| self.speed[i] + if i == edge { self.turning[i] * away } else { 0.0 };
+        let own = |i: usize| {
+            let extra = if i == edge { self.turning_acceleration[i] * away } else { 0.0 };
+            self.acceleration[i] + extra + self.turning[i] * speed(i)
+        };
+        own(0) + own(1) + 2.0 * self.turning[edge] * (speed(0) + speed(1))
+    }
+}
+
+/// The first contact to close over the stretch, by time and then by identity.
+pub fn first_closing(
+    world: &mut World,
+    stretch: &Stretch,
+    watched: &[(ContactId, Watch)],
+    real: &mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool,
+) -> Option<Closing> {
+    let mut best: Option<Closing> = None;
+    let n = stretch.paths.len();
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    for interaction in 0..world.arms.len() {
+        if world.arms[interaction].iter().all(|arm| stretch.paths[arm.coordinate].is_rest()) {
+            continue;
+        }
+        let mut t = stretch.from;
+        for _ in 0..MOST_STEPS {
+            let until = best.map_or(stretch.to, |b| b.t);
+            if t >= until {
+                break;
+            }
+            stretch.state(t, &mut q, &mut v);
+            let (travelled, room) = world.refresh(interaction, &q, 0.0);
+            let pace = Pace::new(world, interaction, stretch, t, until);
+            let end = horizon(world, interaction, travelled, room, pace.total(), t, until);
+            let pace = if end < until { Pace::new(world, interaction, stretch, t, end) } else { pace };
+            let reach = travelled + pace.total() * (end - t);
+            for k in 0..world.listed(interaction).len() {
+                let candidate = world.listed(interaction)[k];
+                if candidate.distance > reach || is_closed(watched, &candidate) {
+                    continue;
+                }
+                let mut march = March { stretch, t, end: best.map_or(end, |b| end.min(b.t)), pace, reach };
+                let released = watched.contains(&(candidate.id, Watch::Released));
+                if let Some(t) = march.run(world, &candidate, released, real, (&mut q, &mut v)) {
+                    best = Some(Closing { t, candidate });
+                }
+            }
+            t = end;
+        }
+    }
+    best
+}
+
+fn is_closed(watched: &[(ContactId, Watch)], candidate: &Candidate) -> bool {
+    watched.contains(&(candidate.id, Watch::Closed))
+}
+
+/// How far to look with this list: no unlisted contact can close before, and the listed ones that can are few.
+fn horizon(world: &World, interaction: usize, travelled: f64, room: f64, speed: f64, t: f64, until: f64) -> f64 {
+    if speed * (until - t) <= room.min(0.04 * world.system.size) {
+        return until;
+    }
+    let nearest = world.listed(interaction).iter().map(|c| c.distance).fold(f64::INFINITY, f64::min);
+    let free = (nearest - travelled).max(0.0) + 0.04 * world.system.size;
+    until.min(t + free.min(room) / speed).max(t + 1e-15 * (1.0 + t.abs()))
+}
+
+struct March<'s, 'p> {
+    stretch: &'s Stretch<'p>,
+    t: f64,
+    end: f64,
+    pace: Pace,
+    /// Bound of how far features move relative to the list.
+    reach: f64,
+}
+
+type Real<'r> = &'r mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool;
+
+impl March<'_, '_> {
+    fn touch(&self, world: &mut World, c: &Candidate, at: (&mut [f64], &mut [f64])) -> (Touch, f64) {
+        self.stretch.state(self.t, at.0, at.1);
+        let touch = world.touch(c, at.0);
+        (touch, touch.rate(at.1))
+    }
+
+    /// The time at which the contact closes, if it does before the end.
+    fn run(
+        &mut self,
+        world: &mut World,
+        c: &Candidate,
+        released: bool,
+        real: Real,
+        (q, v): (&mut [f64], &mut [f64]),
+    ) -> Option<f64> {
+        let size = world.system.size;
+        let (closed, away) = (CLOSED * size, c.distance.max(0.0) + self.reach + 2.0 * self.radius(world, c));
+        if released && !self.wait_for_gap(world, c, (&mut *q, &mut *v)) {
+            return (self.t < self.end).then_some(self.t);
+        }
+        for _ in 0..MOST_STEPS {
+            if self.t >= self.end {
+                return None;
+            }
+            let (touch, rate) = self.touch(world, c, (&mut *q, &mut *v));
+            let gap = touch.state.gap;
+            let touching = gap.abs() <= closed && rate < 0.0;
+            if touching && real(world, &touch, q, v) {
+                return Some(self.t);
+            }
+            let bound = self.pace.curvature(c.kind, away, &touch);
+            let side = if gap > 0.0 && !touching { 1.0 } else { -1.0 };
+            // Past a zero that is no contact, the step must clear the band of closed gaps.
+            let clear = gap.abs().max(0.0) + if gap.abs() <= closed { 3.0 * closed } else { 0.0 };
+            let centers = touch.state.distance_of_centers();
+            let limit = if centers.is_finite() { 0.5 * centers / self.pace.total() } else { f64::INFINITY };
+            let step = safe_step(clear, side * rate, bound).min(limit).max(0.99 * gap.abs() / self.pace.lipschitz(away));
+            self.t += step.max(4.0 * f64::EPSILON * self.t.abs());
+        }
+        // Bound met: hand the place to the resolver rather than step over it.
+        Some(self.t.min(self.end))
+    }
+
+    fn radius(&self, world: &World, c: &Candidate) -> f64 {
+        let (a, b) = world.features(c);
+        a.radius.min(b.radius)
+    }
+
+    /// After a release the gap, its rate and its acceleration are all near zero: goes on to the first sample with
+    /// a positive gap. False if the gap closes again first (then `t` says when) or never opens before the end.
+    fn wait_for_gap(&mut self, world: &mut World, c: &Candidate, at: (&mut [f64], &mut [f64])) -> bool {
+        let (start, open) = (self.t, 8.0 * CLOSED * world.system.size);
+        let (q, v) = at;
+        // Samples from the end backwards: in the usual case all are open and the first interval is short.
+        let mut first_open = None;
+        let mut dt = self.end - start;
+        for _ in 0..60 {
+            self.t = start + dt;
+            let (touch, _) = self.touch(world, c, (&mut *q, &mut *v));
+            if touch.state.gap.abs() <= open {
+                break;
+            }
+            // Behind an edge's line but past its end is free as well.
+            let free = touch.state.gap > 0.0 || touch.margin(world.system.size) <= 0.0;
+            first_open = free.then_some(self.t);
+            dt *= 0.25;
+        }
+        match first_open {
+            Some(t) => {
+                self.t = t;
+                true
+            }
+            None => {
+                let closes = self.t < self.end && dt < self.end - start;
+                self.t = if closes { start + 4.0 * dt } else { self.end };
+                false
+            }
+        }
+    }
+}
+
+/// Positive root of `g + s Δ − B Δ²/2`: no zero of the gap lies before it. `g ≥ 0`; infinite when nothing bends.
+fn safe_step(g: f64, s: f64, bound: f64) -> f64 {
+    let root = (s * s + 2.0 * bound * g).sqrt();
+    if s >= 0.0 {
+        if bound > 0.0 { (s + root) / bound } else { f64::INFINITY }
+    } else {
+        2.0 * g / (root - s)
+    }
+}

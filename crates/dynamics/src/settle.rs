@@ -1,0 +1,249 @@
+//! What contacts do at one instant: impacts first, then which contacts carry force.
+//!
+//! With all closed contacts in G, an impact gives the velocities q̇⁺ that minimise
+//! `(q̇⁺ − q̇⁻)ᵀ M (q̇⁺ − q̇⁻)` subject to `G q̇⁺ ≥ 0` (perfectly inelastic); afterwards Gauss's principle gives the
+//! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem.
+
+use crate::complementarity::solve;
+use crate::place::representatives;
+use crate::search::TOGETHER;
+use crate::world::{Touch, World};
+use mainspring_mechanism::{Candidate, ContactId, Row, System};
+
+/// Rates below this fraction of the speeds at hand count as zero.
+const STILL: f64 = 1e-10;
+/// Relative accelerations below this fraction of those at hand count as zero.
+const BALANCED: f64 = 1e-10;
+/// Rounds of impacts at one instant.
+const MOST_ROUNDS: usize = 40;
+
+/// A contact that is closed after an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closed {
+    pub candidate: Candidate,
+    /// Force along the normal; 0 for a contact that stays closed without force.
+    pub force: f64,
+    /// Whether the motion rests on it.
+    pub active: bool,
+}
+
+/// An impulse at one contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impulse {
+    pub candidate: Candidate,
+    pub impulse: f64,
+}
+
+/// The outcome of an instant.
+#[derive(Clone, Debug, Default)]
+pub struct Settled {
+    pub impulses: Vec<Impulse>,
+    /// Kinetic energy lost at impacts: ½ Δq̇ᵀ M Δq̇ summed over rounds.
+    pub loss: f64,
+    pub closed: Vec<Closed>,
+    /// Contacts with gap and rate near zero that are opening.
+    pub opening: Vec<ContactId>,
+    /// Accelerations just after.
+    pub acceleration: Vec<f64>,
+    /// False if the conditions could not be met to the tolerance.
+    pub solved: bool,
+}
+
+/// The state that an instant starts from. `speeds` are the greatest speeds so far, for tolerances.
+pub struct Instant<'a> {
+    pub q: &'a [f64],
+    pub speeds: &'a [f64],
+    /// Contacts closed before.
+    pub closed: &'a [Closed],
+    /// A contact to leave out unless the others would make it overlap: its force has come to zero, or it ran off
+    /// its feature.
+    pub leaving: Option<ContactId>,
+}
+
+/// Resolves an instant; `v` is changed by impacts.
+pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
+    let mut out = Settled { solved: true, ..Settled::default() };
+    let near = near_touches(world, instant.q);
+    for _ in 0..MOST_ROUNDS {
+        let touches = choose(world, instant, &near, v);
+        if !impact(world.system, instant, &touches, v, &mut out) {
+            break;
+        }
+    }
+    let touches = choose(world, instant, &near, v);
+    hold(world.system, instant, &touches, v, &mut out);
+    out
+}
+
+/// Every contact closed to `TOGETHER` at `q`, wherever along its features.
+fn near_touches(world: &mut World, q: &[f64]) -> Vec<Touch> {
+    let within = TOGETHER * world.system.size;
+    let mut found = Vec::new();
+    for interaction in 0..world.arms.len() {
+        let (travelled, _) = world.refresh(interaction, q, 2.0 * within);
+        for k in 0..world.listed(interaction).len() {
+            let candidate = world.listed(interaction)[k];
+            if candidate.distance - travelled <= 2.0 * within {
+                let touch = world.touch(&candidate, q);
+                if touch.state.gap <= within && touch.state.gap >= -1e3 * within {
+                    found.push(touch);
+                }
+            }
+        }
+    }
+    found
+}
+
+fn choose(world: &mut World, instant: &Instant, near: &[Touch], v: &[f64]) -> Vec<Touch> {
+    let kept: Vec<ContactId> = instant.closed.iter().map(|c| c.candidate.id).collect();
+    let tolerances = |row: &Row| rate_tolerance(row, instant.speeds);
+    let mut chosen = representatives(world, instant.q, v, near, &kept, &tolerances);
+    chosen.retain(|t| Some(t.candidate.id) != instant.leaving || t.rate(v) < -tolerances(&t.row()));
+    chosen
+}
+
+/// Below this a rate of closing counts as zero.
+pub fn rate_tolerance(row: &Row, speeds: &[f64]) -> f64 {
+    STILL * row.entries().map(|(i, g)| g.abs() * speeds[i]).sum::<f64>()
+}
+
+/// One round of impact over the chosen contacts; false when nothing was closing.
+fn impact(system: &System, instant: &Instant, touches: &[Touch], v: &mut [f64], out: &mut Settled) -> bool {
+    let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
+    let rates: Vec<f64> = touches.iter().map(|t| t.rate(v)).collect();
+    let tolerance: Vec<f64> = rows.iter().map(|r| rate_tolerance(r, instant.speeds)).collect();
+    if rates.iter().zip(&tolerance).all(|(rate, tol)| *rate >= -tol) {
+        return false;
+    }
+    let solution = solve(&inverse_inertia(system, &rows), &rates, &tolerance);
+    out.solved &= solution.solved;
+    let mut change = vec![0.0; v.len()];
+    add_forces(system, &rows, &solution.lambda, &mut change);
+    for (i, c) in system.coordinates.iter().enumerate() {
+        out.loss += 0.5 * c.inertia * change[i] * change[i];
+        v[i] += change[i];
+        if v[i].abs() <= 1e-13 * instant.speeds[i] {
+            v[i] = 0.0;
+        }
+    }
+    stop_locked(&rows, &solution.active, v);
+    for (touch, &impulse) in touches.iter().zip(&solution.lambda).filter(|(_, l)| **l > 0.0) {
+        match out.impulses.iter_mut().find(|i| i.candidate.id == touch.candidate.id) {
+            Some(before) => before.impulse += impulse,
+            None => out.impulses.push(Impulse { candidate: touch.candidate, impulse }),
+        }
+    }
+    true
+}
+
+/// As many independent active contacts as coordinates they touch: nothing there can move.
+fn stop_locked(rows: &[Row], active: &[usize], v: &mut [f64]) {
+    let groups = groups(rows, active);
+    for group in groups.iter().filter(|g| g.contacts.len() >= g.coordinates.len()) {
+        for &i in &group.coordinates {
+            v[i] = 0.0;
+        }
+    }
+}
+
+/// Coordinates tied together by contacts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Group {
+    /// In increasing order.
+    pub coordinates: Vec<usize>,
+    /// Indices into the rows.
+    pub contacts: Vec<usize>,
+}
+
+/// Sorts contacts into groups that share coordinates, in a fixed order.
+pub fn groups(rows: &[Row], active: &[usize]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for &k in active {
+        let mut merged = Group { coordinates: rows[k].entries().map(|(i, _)| i).collect(), contacts: vec![k] };
+        let (joined, others): (Vec<Group>, Vec<Group>) = groups
+            .into_iter()
+            .partition(|g| g.coordinates.iter().any(|i| merged.coordinates.contains(i)));
+        for g in joined {
+            merged.coordinates.extend(g.coordinates);
+            merged.contacts.extend(g.contacts);
+        }
+        merged.coordinates.sort_unstable();
+        merged.coordinates.dedup();
+        merged.contacts.sort_unstable();
+        groups = others;
+        groups.push(merged);
+    }
+    groups.sort_by(|a, b| a.coordinates.cmp(&b.coordinates));
+    groups
+}
+
+/// Which touching contacts stay closed, with what forces (Gauss's principle).
+fn hold(system: &System, instant: &Instant, touches: &[Touch], v: &[f64], out: &mut Settled) {
+    let still: Vec<&Touch> = touches
+        .iter()
+        .filter(|t| t.rate(v).abs() <= rate_tolerance(&t.row(), instant.speeds))
+        .collect();
+    let rows: Vec<Row> = still.iter().map(|t| t.row()).collect();
+    let free: Vec<f64> = system
+        .coordinates
+        .iter()
+        .enumerate()
+        .map(|(i, c)| c.free_acceleration(instant.q[i], v[i]))
+        .collect();
+    let bias: Vec<f64> = still.iter().map(|t| t.bias(v)).collect();
+    let b: Vec<f64> = rows.iter().zip(&bias).map(|(row, bias)| row.dot(&free) + bias).collect();
+    let tolerance: Vec<f64> = rows
+        .iter()
+        .zip(&bias)
+        .map(|(row, bias)| BALANCED * (weigh(system, row, instant.q, v) + bias.abs()))
+        .collect();
+    let solution = solve(&inverse_inertia(system, &rows), &b, &tolerance);
+    out.solved &= solution.solved;
+    out.acceleration = free;
+    let mut extra = vec![0.0; v.len()];
+    add_forces(system, &rows, &solution.lambda, &mut extra);
+    for (a, extra) in out.acceleration.iter_mut().zip(extra) {
+        *a += extra;
+    }
+    for (k, touch) in still.iter().enumerate() {
+        let (force, candidate) = (solution.lambda[k], touch.candidate);
+        if force > 0.0 || solution.w[k] <= tolerance[k] {
+            out.closed.push(Closed { candidate, force, active: force > 0.0 });
+        } else {
+            out.opening.push(candidate.id);
+        }
+    }
+}
+
+/// Size of the accelerations that meet at a contact, before they cancel.
+fn weigh(system: &System, row: &Row, q: &[f64], v: &[f64]) -> f64 {
+    row.entries()
+        .map(|(i, g)| {
+            let c = &system.coordinates[i];
+            let force = (c.force - c.stiffness * q[i]).abs() + (c.damping * v[i]).abs();
+            g.abs() * force / c.inertia
+        })
+        .sum()
+}
+
+/// `G M⁻¹ Gᵀ` in row order.
+pub fn inverse_inertia(system: &System, rows: &[Row]) -> Vec<f64> {
+    let product = |a: &Row, b: &Row| -> f64 {
+        a.entries()
+            .map(|(i, g)| {
+                let h: f64 = b.entries().filter(|(j, _)| *j == i).map(|(_, h)| h).sum();
+                g * h / system.coordinates[i].inertia
+            })
+            .sum()
+    };
+    rows.iter().flat_map(|a| rows.iter().map(move |b| product(a, b))).collect()
+}
+
+/// Adds `M⁻¹ Gᵀ λ`.
+pub fn add_forces(system: &System, rows: &[Row], lambda: &[f64], change: &mut [f64]) {
+    for (row, l) in rows.iter().zip(lambda) {
+        for (i, g) in row.entries() {
+            change[i] += g * l / system.coordinates[i].inertia;
+        }
+    }
+}

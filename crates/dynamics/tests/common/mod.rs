@@ -1,0 +1,87 @@
+//! Machines for the tests, with joints given by hand: contact is tested without relying on what finds the joints.
+#![allow(dead_code)]
+
+use mainspring_geometry::{OutlineRecipe, Rigid3, Vec2};
+use mainspring_mechanism::{Body, Coordinate, Exclusion, Joint, Motion, System};
+use mainspring_model::Machine;
+
+/// A coordinate with a spring `(constant, relaxed)`.
+pub fn coordinate(name: &str, inertia: f64, damping: f64, spring: (f64, f64)) -> Coordinate {
+    let (stiffness, relaxed) = spring;
+    Coordinate {
+        name: name.into(),
+        inertia,
+        damping,
+        stiffness,
+        force: stiffness * relaxed,
+        energy_at_zero: 0.5 * stiffness * relaxed * relaxed,
+        position: 0.0,
+        velocity: 0.0,
+    }
+}
+
+pub fn turn(coordinate: usize, x: f64, y: f64) -> Joint {
+    Joint { coordinate, ratio: 1.0, motion: Motion::Turn { center: Vec2::new(x, y) } }
+}
+
+pub fn slide(coordinate: usize, x: f64, y: f64) -> Joint {
+    Joint { coordinate, ratio: 1.0, motion: Motion::Slide { direction: Vec2::new(x, y) } }
+}
+
+/// Bodies from a text of the input language; `joints` by part name in lower case, others are fixed.
+pub fn bodies(text: &str, joints: &[(&str, Joint)]) -> Vec<Body> {
+    let machine = Machine::parse("test.padl", text.as_bytes(), None).unwrap();
+    let values = machine.values(&[]).unwrap();
+    let primitives = machine.primitives(&values).unwrap();
+    let plane = Rigid3::identity();
+    machine
+        .parts()
+        .iter()
+        .map(|part| {
+            let outline = OutlineRecipe::find(&primitives, &part.csg, &plane).unwrap().evaluate(&primitives, &plane);
+            let name = part.name.to_lowercase();
+            let chain = joints.iter().filter(|(n, _)| *n == name).map(|(_, j)| *j).collect();
+            Body { name, chain, outline }
+        })
+        .collect()
+}
+
+/// Surfaces on which two bodies turn: circles about the same centre of the same radius.
+pub fn journals(bodies: &[Body]) -> Vec<Exclusion> {
+    let mut found = Vec::new();
+    for (i, a) in bodies.iter().enumerate() {
+        for (j, _) in bodies.iter().enumerate().skip(i + 1) {
+            let mut curves = vec![];
+            for joint in bodies[j].chain.iter().chain(&a.chain) {
+                let Motion::Turn { center } = joint.motion else { continue };
+                for body in [a, &bodies[j]] {
+                    let edges = body.outline.layers.iter().flat_map(|l| &l.loops).flat_map(|l| &l.edges);
+                    for edge in edges {
+                        if let mainspring_geometry::Segment::Circle { center: c, .. } = edge.segment
+                            && (c - center).norm() < 1e-12
+                        {
+                            curves.push(edge.curve);
+                        }
+                    }
+                }
+            }
+            found.push(Exclusion { bodies: (i, j), curves });
+        }
+    }
+    found
+}
+
+/// The escapement of Fig. 12 with the supplement of Fig. 13, its joints given.
+pub fn escapement() -> System {
+    let text = include_str!("../../../../examples/escapement/escapement.padl");
+    let degree = std::f64::consts::PI / 180.0;
+    let coordinates = vec![
+        coordinate("ewheel", 200.0, 20.0, (20.0, -10000.0 * degree)),
+        coordinate("lever", 10.0, 5.0, (0.0, 0.0)),
+        coordinate("bwheel", 20.0, 6.0, (15.0, 90.0 * degree)),
+    ];
+    let joints = [("ewheel", turn(0, 0.0, 0.0)), ("lever", turn(1, 0.0, 7.5)), ("bwheel", turn(2, 0.0, 20.0))];
+    let bodies = bodies(text, &joints);
+    let exclusions = journals(&bodies);
+    System::new(coordinates, bodies, &exclusions, 31.0)
+}
