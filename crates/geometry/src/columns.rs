@@ -5,20 +5,19 @@
 
 use crate::moments::Moments;
 use crate::tree::{Scratch, Sides, Tree};
-use crate::{Bounds3, Primitive, Shape, Vec3};
+use crate::{Bounds3, Primitive, Rigid3, Shape, Vec3};
 
 /// Change from one grid to the next, relative to the largest moment, that ends the doubling.
-const ACCURACY: f64 = 2e-5;
+const ACCURACY: f64 = 1e-4;
 /// Column-primitive pairs that may be tried in all.
 const WORK: usize = 60_000_000;
 const FIRST_GRID: usize = 64;
-const LAST_GRID: usize = 2048;
+const LAST_GRID: usize = 1024;
 
 /// Moments about the middle of `bounds`, and their estimated relative error.
 pub(crate) fn integrate(primitives: &[Primitive], tree: &Tree, bounds: &Bounds3) -> (Moments, f64) {
-    let boxed = |i: u32| (i, Bounds3::of(&primitives[i as usize], &crate::Rigid3::identity()));
-    let solids: Vec<_> = tree.primitives().map(boxed).collect();
-    let mut columns = Columns { primitives, tree, bounds, solids, scratch: Scratch::default(), spent: 0 };
+    let solids: Vec<_> = tree.primitives().map(|i| Body::of(i, &primitives[i as usize])).collect();
+    let mut columns = Columns { tree, bounds, solids, scratch: Scratch::default(), spent: 0 };
     let (mut n, mut error) = (FIRST_GRID, 1.0);
     let mut moments = columns.grid(n);
     while error > ACCURACY && n < LAST_GRID && columns.spent.saturating_mul(5) < WORK {
@@ -38,10 +37,9 @@ fn change(a: &Moments, b: &Moments) -> f64 {
 }
 
 struct Columns<'a> {
-    primitives: &'a [Primitive],
     tree: &'a Tree,
     bounds: &'a Bounds3,
-    solids: Vec<(u32, Bounds3)>,
+    solids: Vec<Body>,
     scratch: Scratch,
     spent: usize,
 }
@@ -55,7 +53,7 @@ impl Columns<'_> {
         for i in 0..n {
             let x = b.min[0] + (i as f64 + 0.5) * step[0];
             let row: Vec<_> =
-                self.solids.iter().filter(|s| s.1.min[0] < x && x < s.1.max[0]).copied().collect();
+                self.solids.iter().filter(|s| s.bounds.min[0] < x && x < s.bounds.max[0]).copied().collect();
             let mut sum = Moments::default();
             for j in 0..n {
                 let y = b.min[1] + (j as f64 + 0.5) * step[1];
@@ -70,10 +68,10 @@ impl Columns<'_> {
         total
     }
 
-    fn column(&mut self, x: f64, y: f64, row: &[(u32, Bounds3)], sum: &mut Moments) {
+    fn column(&mut self, x: f64, y: f64, row: &[Body], sum: &mut Moments) {
         self.spent += row.len().max(1);
-        let near = row.iter().filter(|s| s.1.min[1] < y && y < s.1.max[1]);
-        let hit = |&(i, _): &(u32, Bounds3)| Some((i, vertical(&self.primitives[i as usize], x, y)?));
+        let near = row.iter().filter(|s| s.bounds.min[1] < y && y < s.bounds.max[1]);
+        let hit = |s: &Body| Some((s.index, s.vertical(x, y)?));
         let spans: Vec<(u32, [f64; 2])> = near.filter_map(hit).collect();
         let mut stops: Vec<f64> = spans.iter().flat_map(|s| s.1).collect();
         stops.sort_by(f64::total_cmp);
@@ -90,12 +88,37 @@ impl Columns<'_> {
     }
 }
 
-/// The heights between which the vertical line through (x, y) is inside a primitive.
-fn vertical(primitive: &Primitive, x: f64, y: f64) -> Option<[f64; 2]> {
-    let local = primitive.machine_from_local.inverse();
-    let (p, d) = (local.apply(Vec3::new(x, y, 0.0)), local.columns[2]);
+/// A primitive, its box and the way into its own coordinates.
+#[derive(Clone, Copy)]
+struct Body {
+    index: u32,
+    bounds: Bounds3,
+    shape: Shape,
+    local_from_machine: Rigid3,
+}
+
+impl Body {
+    fn of(index: u32, primitive: &Primitive) -> Self {
+        Self {
+            index,
+            bounds: Bounds3::of(primitive, &Rigid3::identity()),
+            shape: primitive.shape,
+            local_from_machine: primitive.machine_from_local.inverse(),
+        }
+    }
+
+    /// The heights between which the vertical line through (x, y) is inside.
+    fn vertical(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let local = &self.local_from_machine;
+        let (p, d) = (local.apply(Vec3::new(x, y, 0.0)), local.columns[2]);
+        inside_along(self.shape, p, d)
+    }
+}
+
+/// The parameters t between which p + t d is inside a shape.
+fn inside_along(shape: Shape, p: Vec3, d: Vec3) -> Option<[f64; 2]> {
     let all = Some([f64::NEG_INFINITY, f64::INFINITY]);
-    match primitive.shape {
+    match shape {
         Shape::Block { x, y, z } => block(p, d, [x, y, z]),
         Shape::Wedge { x, y, z } => {
             half_space(block(p, d, [x, y, z]), p.x / x + p.z / z - 1.0, d.x / x + d.z / z)

@@ -8,6 +8,7 @@ use crate::recipe::{Corner, EdgeRecipe, LayerRecipe, LoopRecipe};
 use crate::section::{Face, Section};
 use crate::tree::{Scratch, Tree};
 use crate::{Bounds3, Csg, CurveId, OutlineError, OutlineRecipe, Primitive, Rigid3, Turn, Vec2};
+use std::collections::BTreeSet;
 
 /// What counts as coincident, relative to the part's size; the wider ones are tried where features so close
 /// to the tolerance give a contradictory boundary.
@@ -91,6 +92,8 @@ struct RawLayer {
     loops: Vec<RawLoop>,
 }
 
+type Finished = Result<LayerRecipe, OutlineError>;
+
 /// All sections with their faces, ascending by primitive and face.
 struct Sections {
     list: Vec<Section>,
@@ -105,7 +108,7 @@ impl Finder<'_> {
         let sections = self.sections()?;
         let levels = levels(&sections.list, self.tolerance.length);
         let raw = self.raw_layers(&sections, &levels)?;
-        raw.iter().map(|l| self.finish(l, &sections, &levels)).collect()
+        (0..raw.len()).map(|k| self.finish(k, &sections, &levels, &raw)).collect()
     }
 
     fn sections(&self) -> Result<Sections, OutlineError> {
@@ -176,14 +179,16 @@ impl Finder<'_> {
         Chainer { vertices, classes: &all.classes, tolerance: &self.tolerance }.loops(&edges)
     }
 
-    fn finish(&self, raw: &RawLayer, all: &Sections, levels: &[Level]) -> Result<LayerRecipe, OutlineError> {
-        let loops = raw.loops.iter().map(|l| self.finish_loop(l, all)).collect::<Result<Vec<_>, _>>()?;
+    fn finish(&self, k: usize, all: &Sections, levels: &[Level], raw: &[RawLayer]) -> Finished {
+        let layer = &raw[k];
+        let loops = layer.loops.iter().map(|l| self.finish_loop(l, all)).collect::<Result<Vec<_>, _>>()?;
         let mut loops: Vec<_> = loops.into_iter().map(from_lowest_edge).collect();
         loops.sort_by(|a, b| a.edges.iter().map(edge_key).cmp(b.edges.iter().map(edge_key)));
-        let curves = raw.loops.iter().flatten().flat_map(|e| &e.curves);
-        let mut bounding: Vec<u32> = curves.map(|c| c.primitive).collect();
-        bounding.sort_unstable();
-        let [bottom, top] = raw.levels.map(|k| levels[k].cap(&bounding));
+        let meets = |other: Option<&RawLayer>, end: usize| {
+            let beside = other.filter(|o| o.levels[1 - end] == layer.levels[end]);
+            levels[layer.levels[end]].cap([Some(layer), beside])
+        };
+        let (bottom, top) = (meets(raw[..k].last(), 0), meets(raw.get(k + 1), 1));
         Ok(LayerRecipe { bottom, top, loops })
     }
 
@@ -238,10 +243,16 @@ struct Level {
 }
 
 impl Level {
-    /// The first cap in the text, of a primitive that bounds the layer if there is one.
-    fn cap(&self, bounding: &[u32]) -> CurveId {
-        let bounds = |c: &&CurveId| bounding.binary_search(&c.primitive).is_ok();
-        *self.caps.iter().find(bounds).unwrap_or(&self.caps[0])
+    /// The first cap in the text, of a primitive that bounds one of the layers beside it if there is one.
+    fn cap(&self, beside: [Option<&RawLayer>; 2]) -> CurveId {
+        let bounding: BTreeSet<u32> = beside.into_iter().flatten().flat_map(RawLayer::primitives).collect();
+        *self.caps.iter().find(|c| bounding.contains(&c.primitive)).unwrap_or(&self.caps[0])
+    }
+}
+
+impl RawLayer {
+    fn primitives(&self) -> impl Iterator<Item = u32> + '_ {
+        self.loops.iter().flatten().flat_map(|e| &e.curves).map(|c| c.primitive)
     }
 }
 
