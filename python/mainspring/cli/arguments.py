@@ -133,7 +133,7 @@ def _examples(commands: "Commands[Parser]") -> None:
 
 
 def _cite(commands: "Commands[Parser]") -> None:
-    example = "mainspring predict escapement.padl --json > p.json && mainspring cite p.json"
+    example = "mainspring cite run/result.json"
     command = _command(commands, "cite", "print the sources of a result", example)
     command.add_argument("result", metavar="RESULT", nargs="?", help="a JSON result (default: all sources)")
     _json(command)

@@ -1,0 +1,102 @@
+"""Bad input and usage: exit code 2, one line on standard error, nothing on standard output, no file."""
+
+import re
+
+import pytest
+
+from conftest import ESCAPEMENT
+
+BAD_USAGE = [
+    (),
+    ("fly",),
+    ("simulate", ESCAPEMENT),
+    ("simulate", ESCAPEMENT, "--until", "0"),
+    ("simulate", ESCAPEMENT, "--until", "nan"),
+    ("simulate", ESCAPEMENT, "--until", "1_0"),
+    ("simulate", ESCAPEMENT, "--until", "1e999"),
+    ("simulate", ESCAPEMENT, "--until", "9" * 100_000),
+    ("simulate", ESCAPEMENT, "--until", "1", "--contact", "soft"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--csv"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--rtol", "-1"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--position", "lever=4"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--position", "lever=4deg/s"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--velocity", "lever=4deg"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--position", "frame=4deg"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--position", "pawl=4deg"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--position", "lever=1deg", "--position", "LEVER=2deg"),
+    ("inspect", ESCAPEMENT, "--set", "gap"),
+    ("inspect", ESCAPEMENT, "--set", "gap=36", "--set", "GAP=36"),
+    ("inspect", ESCAPEMENT, "--pair-clearance", "-1"),
+    ("inspect", ESCAPEMENT, "--sv", "x.svg"),
+    ("predict", ESCAPEMENT, "--confirm", "0"),
+    ("predict", ESCAPEMENT, "--confirm", "two"),
+    ("predict", ESCAPEMENT, "--range-fraction", "0"),
+    ("examples", "carriage", "x"),
+    ("examples", "escapement"),
+    ("cite", ESCAPEMENT),
+]
+
+
+def _refused(done, tmp_path):
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1, done.stderr
+    assert "Traceback" not in done.stderr
+    assert "error: " in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("arguments", BAD_USAGE, ids=lambda a: " ".join(map(str, a[2:]))[:40] or str(a[:1]))
+def test_bad_usage_is_one_clear_line(cli, tmp_path, arguments):
+    _refused(cli(*arguments), tmp_path)
+
+
+@pytest.mark.parametrize("setting", ["gap=99", "tooth_count=3", "gap=29.999"])
+def test_bad_parameters_name_the_file(cli, tmp_path, setting):
+    done = cli("inspect", ESCAPEMENT, "--set", setting)
+    _refused(done, tmp_path)
+    assert setting.split("=")[0] in done.stderr
+
+
+BAD_TEXT = {
+    "undefined": b"generic m(m)\nm = a asb b\n",
+    "binary": bytes(range(256)),
+    "empty": b"",
+    "unclosed": b"generic m(a, b)\na = (blo(x=1)\n",
+    "latin": "généric".encode("latin-1"),
+    "number": b"generic m(m)\na = 1_0\n",
+    "code": b"__import__('os').system('touch owned')\n",
+}
+
+
+@pytest.mark.parametrize("name", BAD_TEXT)
+def test_bad_models_name_file_line_and_column(cli, tmp_path, name):
+    model = tmp_path / "bad.padl"
+    model.write_bytes(BAD_TEXT[name])
+    done = cli("inspect", model, "--json", "--svg", "bad.svg")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert re.fullmatch(r".*bad\.padl:\d+:\d+: error: [^\n]+\n", done.stderr), done.stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["bad.padl"]
+
+
+def test_a_missing_file_is_one_line(cli, tmp_path):
+    done = cli("inspect", "nowhere.padl")
+    _refused(done, tmp_path)
+    assert done.stderr.startswith("nowhere.padl:")
+
+
+def test_nothing_is_left_when_a_file_cannot_be_written(cli, tmp_path):
+    (tmp_path / "wall").write_text("a file, no folder")
+    done = cli("simulate", ESCAPEMENT, "--until", "1", "--out", "wall")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    assert [p.name for p in tmp_path.iterdir()] == ["wall"]
+
+
+def test_examples_never_overwrites(cli, tmp_path):
+    (tmp_path / "clock").mkdir()
+    (tmp_path / "clock" / "mine.txt").write_text("mine")
+    assert cli("examples", "escapement", "clock").returncode == 2
+    assert [p.name for p in (tmp_path / "clock").iterdir()] == ["mine.txt"]

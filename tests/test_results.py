@@ -1,0 +1,78 @@
+"""The Python results: frozen, typed, and the same numbers as the JSON."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+import mainspring as ms
+from conftest import ESCAPEMENT
+
+
+def test_the_machine_tells_its_parameters():
+    machine = ms.load(ESCAPEMENT)
+    gap = next(p for p in machine.parameters if p.name == "gap")
+    assert (gap.value, gap.range) == (36.0, (30.0, 40.0))
+
+
+def test_an_unknown_parameter_is_an_input_error():
+    with pytest.raises(ms.InputError, match=r"escapement\.padl:\d+:\d+: error: .*no_such"):
+        ms.load(ESCAPEMENT).compile(no_such=1.0)
+
+
+def test_results_are_frozen(mechanism, simulation, prediction):
+    for result in (ms.find_pairs(mechanism), simulation, prediction):
+        with pytest.raises(dataclasses.FrozenInstanceError):
+            result.status = "other"
+        with pytest.raises(TypeError):
+            result.stats["steps"] = 0
+        assert result.status in result._repr_html_() or "<strong>" in result._repr_html_()
+
+
+def test_dense_evaluation_passes_through_the_steps(simulation):
+    motion = simulation.trajectory
+    assert motion.q.shape == motion.v.shape == (len(motion.t), 3)
+    at = motion.at(motion.t)
+    np.testing.assert_array_equal(at.q, motion.q)
+    one = motion.at(float(motion.t[5]))
+    assert one.q.shape == (3,)
+    np.testing.assert_array_equal(one.q, motion.q[5])
+
+
+def test_velocity_is_the_slope_of_position(simulation):
+    t, h = np.linspace(0.11, 36.9, 173), 1e-5
+    motion = simulation.trajectory
+    events = np.array([e.t for e in simulation.events])
+    clear = np.abs(t[:, None] - events).min(axis=1) > 1e-3
+    slope = (motion.at(t + h).q - motion.at(t - h).q) / (2 * h)
+    np.testing.assert_allclose(slope[clear], motion.at(t).v[clear], atol=2e-6)
+
+
+def test_json_and_attributes_agree(simulation, prediction):
+    found = json.loads(simulation.to_json())
+    assert found["positions"] == dict(simulation.positions)
+    assert found["stats"] == dict(simulation.stats)
+    assert len(found["events"]) == len(simulation.events)
+    assert json.loads(prediction.to_json())["sentences"] == list(prediction.sentences)
+
+
+def test_progress_can_stop_a_run(mechanism):
+    seen: list[float] = []
+
+    def stop(t: float) -> bool:
+        seen.append(t)
+        return False
+
+    run = ms.simulate(mechanism, 2000.0, progress=stop)
+    assert run.status == "stopped"
+    assert len(seen) == 1
+    assert run.t < 2000.0
+    assert run.trajectory.t[-1] == run.t
+
+
+def test_public_names_exist():
+    for name in ms.__all__:
+        assert getattr(ms, name) is not None
+    with pytest.raises(AttributeError):
+        _ = ms.no_such_name
