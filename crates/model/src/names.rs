@@ -6,6 +6,9 @@ const LISTED: usize = 8;
 /// Longest name that is compared; longer ones are no slips of the pen.
 const COMPARED: usize = 40;
 
+/// Names compared at most: the first in the text.
+const CANDIDATES: usize = 10_000;
+
 /// The name nearest to `wanted` in any letter case, if few letters differ (one of two to four, two of five to
 /// seven, and so on).
 pub(crate) fn nearest<'a>(known: impl IntoIterator<Item = &'a str>, wanted: &str) -> Option<&'a str> {
@@ -15,7 +18,7 @@ pub(crate) fn nearest<'a>(known: impl IntoIterator<Item = &'a str>, wanted: &str
     let wanted = wanted.to_ascii_lowercase();
     let allowed = (wanted.len() + 1) / 3;
     let mut best: Option<(usize, &str)> = None;
-    for name in known.into_iter().filter(|n| n.len().abs_diff(wanted.len()) <= allowed) {
+    for name in known.into_iter().take(CANDIDATES).filter(|n| n.len().abs_diff(wanted.len()) <= allowed) {
         let distance = edits(&wanted, &name.to_ascii_lowercase());
         if distance <= allowed && best.is_none_or(|(d, _)| distance < d) {
             best = Some((distance, name));

@@ -86,7 +86,7 @@ impl Parser<'_> {
         if nodes > EXPRESSION_NODES {
             return Err(too_long(place));
         }
-        self.ops.push((op, place));
+        self.push(op, place)?;
         Ok(Term { kind: Kind::Number, nodes, operands: 0 })
     }
 
@@ -95,7 +95,7 @@ impl Parser<'_> {
         match self.token.kind {
             TokenKind::Number(value) => {
                 let place = self.take()?.place;
-                self.ops.push((Op::Number(value), place));
+                self.push(Op::Number(value), place)?;
                 Ok(Term { kind: Kind::Number, nodes: 1, operands: 0 })
             }
             TokenKind::Word => self.word(),
@@ -125,8 +125,8 @@ impl Parser<'_> {
             return self.symmetric_union(word.place);
         }
         self.check_operand(&word)?;
-        let name = self.name(word.text);
-        self.ops.push((Op::Name(name), word.place));
+        let name = self.name(&word)?;
+        self.push(Op::Name(name), word.place)?;
         Ok(Term { kind: Kind::Name, nodes: 1, operands: 1 })
     }
 

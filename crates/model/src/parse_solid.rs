@@ -3,7 +3,7 @@
 use crate::description::SymmetryKind;
 use crate::error::{Fault, Place, Read, quote};
 use crate::lexer::{Token, TokenKind};
-use crate::limits::{DEFINITIONS, MOTIONS, PRIMITIVES};
+use crate::limits::{DEFINITIONS, PRIMITIVES};
 use crate::names;
 use crate::parse_number::Term;
 use crate::parser::Parser;
@@ -37,7 +37,7 @@ impl Parser<'_> {
                     format!("more than {PRIMITIVES} primitives in a solid; expected at most as many");
                 return Err(Fault::new(place, message));
             }
-            self.ops.push((op, place));
+            self.push(op, place)?;
             left = Term::solid(operands);
         }
         Ok(left)
@@ -61,7 +61,7 @@ impl Parser<'_> {
             if let Some((Op::At(last), _)) = self.ops.last() {
                 self.syntax.placements[*last as usize].extend(motions);
             } else {
-                self.ops.push((Op::At(self.syntax.placements.len() as u32), place));
+                self.push(Op::At(self.syntax.placements.len() as u32), place)?;
                 self.syntax.placements.push(motions);
             }
             term = Term::solid(term.operands);
@@ -82,21 +82,12 @@ impl Parser<'_> {
             self.expect(b'=', &format!("`=` and an amount for {}", word.text))?;
             let amount = self.expression()?;
             motions.push(RawMotion { turns: *turns, axis: *axis, amount });
-            self.count_motion(word.place)?;
             if !self.skip(b',')? {
                 break;
             }
         }
         self.close(b')', "`,` or ")?;
         Ok(motions)
-    }
-
-    fn count_motion(&mut self, place: Place) -> Read<()> {
-        self.motions += 1;
-        if self.motions > MOTIONS {
-            return Err(Fault::new(place, format!("more than {MOTIONS} motions; expected at most as many")));
-        }
-        Ok(())
     }
 
     /// The rest of a primitive, after its word: `(x=…, y=…)`.
@@ -114,7 +105,7 @@ impl Parser<'_> {
             let message = format!("more than {DEFINITIONS} primitives in the text; expected at most as many");
             return Err(Fault::new(word.place, message));
         }
-        self.ops.push((Op::Shape(self.syntax.shapes.len() as u32), word.place));
+        self.push(Op::Shape(self.syntax.shapes.len() as u32), word.place)?;
         self.syntax.shapes.push(RawShape { kind, sizes, place: word.place, solid: self.current });
         Ok(Term::solid(1))
     }
@@ -160,7 +151,7 @@ impl Parser<'_> {
         self.expect(b',', "`,` and the range")?;
         let range = self.expression()?;
         self.close(b')', "")?;
-        self.ops.push((Op::Copies(self.syntax.copies.len() as u32), place));
+        self.push(Op::Copies(self.syntax.copies.len() as u32), place)?;
         self.syntax.copies.push(RawCopies { kind, axis, count, range, place });
         Ok(Term::solid(solid.operands))
     }

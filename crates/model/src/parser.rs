@@ -3,9 +3,10 @@
 use crate::error::{Fault, Place, Read, quote};
 use crate::expression::Function;
 use crate::lexer::{Lexer, Token, TokenKind};
+use crate::limits::{FILE_NODES, NAMES};
 use crate::names;
 use crate::shape_text::ShapeKind;
-use crate::syntax::{Name, Ops, Syntax};
+use crate::syntax::{Name, Op, Ops, Syntax};
 use std::collections::HashMap;
 
 /// Words with a meaning of their own, besides functions and primitives.
@@ -35,7 +36,8 @@ pub(crate) struct Parser<'a> {
     pub ops: Ops,
     /// The name being defined.
     pub current: u32,
-    pub motions: usize,
+    /// Operations read so far.
+    nodes: usize,
 }
 
 impl<'a> Parser<'a> {
@@ -43,7 +45,7 @@ impl<'a> Parser<'a> {
         let mut lexer = Lexer::new(text, file);
         let token = lexer.next()?;
         let syntax = Syntax::default();
-        Ok(Self { lexer, token, names: HashMap::new(), syntax, ops: Vec::new(), current: 0, motions: 0 })
+        Ok(Self { lexer, token, names: HashMap::new(), syntax, ops: Vec::new(), current: 0, nodes: 0 })
     }
 
     /// Takes the current token.
@@ -90,6 +92,20 @@ impl<'a> Parser<'a> {
         Err(self.unexpected(expected))
     }
 
+    /// Adds an operation to the expression being read.
+    pub fn push(&mut self, op: Op, place: Place) -> Read<()> {
+        self.nodes += 1;
+        if self.nodes > FILE_NODES {
+            let what = "numbers, names, operators and primitives in the file";
+            return Err(Fault::new(
+                place,
+                format!("more than {FILE_NODES} {what}; expected at most as many"),
+            ));
+        }
+        self.ops.push((op, place));
+        Ok(())
+    }
+
     /// A word of any meaning.
     pub fn expect_word(&mut self, expected: &str) -> Read<Token<'a>> {
         if self.token.kind != TokenKind::Word {
@@ -102,7 +118,7 @@ impl<'a> Parser<'a> {
     pub fn expect_name(&mut self, expected: &str) -> Read<(u32, Place)> {
         let word = self.expect_word(expected)?;
         self.check_name(&word)?;
-        Ok((self.name(word.text), word.place))
+        Ok((self.name(&word)?, word.place))
     }
 
     pub fn check_name(&self, word: &Token) -> Read<()> {
@@ -122,15 +138,19 @@ impl<'a> Parser<'a> {
     }
 
     /// The index of a name; spelled as it is first written.
-    pub fn name(&mut self, text: &str) -> u32 {
-        let lower = text.to_ascii_lowercase();
+    pub fn name(&mut self, word: &Token) -> Read<u32> {
+        let lower = word.text.to_ascii_lowercase();
         if let Some(index) = self.names.get(&lower) {
-            return *index;
+            return Ok(*index);
         }
-        let index = self.syntax.names.len() as u32;
-        self.names.insert(lower, index);
-        self.syntax.names.push(Name { text: text.to_string(), definition: None, formal: None });
-        index
+        let index = self.syntax.names.len();
+        if index == NAMES {
+            let message = format!("more than {NAMES} different names; expected at most as many");
+            return Err(Fault::new(word.place, message));
+        }
+        self.names.insert(lower, index as u32);
+        self.syntax.names.push(Name { text: word.text.to_string(), definition: None, formal: None });
+        Ok(index as u32)
     }
 
     pub fn unexpected(&self, expected: &str) -> Box<Fault> {

@@ -157,10 +157,29 @@ fn steps_of_expansion() {
 }
 
 #[test]
-fn motions() {
-    let text = |count: usize| with(&format!("s = blo() at ({})", vec!["movx=0"; count].join(",")));
-    ok(&text(limits::MOTIONS));
-    refused(&text(limits::MOTIONS + 1), "more than 1000000 motions");
+fn nodes_of_a_file() {
+    // Each definition has 500 numbers and 499 operators; further nodes are two primitives, one use, and one `at`.
+    let sum = vec!["1"; 500].join("+");
+    let text = |more: usize| {
+        let mut text = "generic g(r)\ns = blo()\nr = s\n".to_string();
+        for i in 0..1000 {
+            writeln!(text, "n{i} = {sum}").unwrap();
+        }
+        text + &format!("s1 = blo() at ({})\n", vec!["movx=1"; more].join(","))
+    };
+    let rest = limits::FILE_NODES - 1000 * 999 - 4;
+    ok(&text(rest));
+    refused(&text(rest + 1), "more than 1000000 numbers, names, operators and primitives in the file");
+}
+
+#[test]
+fn different_names() {
+    let text = |count: usize| {
+        let names: Vec<String> = (0..count - 2).map(|i| format!("movx=q{i}")).collect();
+        with(&format!("s = blo() at ({})", names.join(",")))
+    };
+    refused(&text(limits::NAMES), "m.padl:2:20: error: `q0` is not defined");
+    refused(&text(limits::NAMES + 1), "more than 200000 different names");
 }
 
 #[test]
