@@ -39,6 +39,9 @@ impl Budget {
     }
 }
 
+/// What listing a face in a slab costs, in pairs.
+const FACE: usize = 2;
+
 /// A face's stretch of its class, in the parameter of the class curve.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
@@ -83,7 +86,7 @@ impl Arrangement {
         tolerance: &Tolerance,
         budget: &mut Budget,
     ) -> Result<Self, OutlineError> {
-        budget.spend_pairs(members.len())?;
+        budget.spend_pairs(FACE * members.len())?;
         let stretches = stretches(faces, members, classes);
         let runs = runs(&stretches, classes);
         let points = crossings(&runs, classes, tolerance, budget)?;

@@ -27,6 +27,8 @@ struct Node {
     parent: u32,
     /// Operand of a difference that is taken away.
     removed: bool,
+    /// Is the whole true where this node is and nothing beside the way up is?
+    carries: bool,
     operands: u32,
 }
 
@@ -124,21 +126,33 @@ impl Tree {
                 }
             }
         }
-        while let Some(n) = s.heap.pop() {
-            s.touched.push(n);
-            let sides = s.combine(&self.nodes[n as usize], n);
-            s.settle(self, n, sides);
+        let whole = self.climb(s);
+        if whole.differ() {
+            self.collect_active(s, active);
         }
-        if self.nodes.is_empty() || s.stamp[0] != s.epoch || !s.value[0].differ() {
-            return s.root_value();
-        }
-        self.collect_active(s, active);
-        s.value[0]
+        whole
     }
 
-    /// A leaf is active if it and everything above it differs between the sides.
+    /// Evaluates upwards from the leaves just settled. Once a single branch is left its fate is known: every
+    /// operand that could still join is outside.
+    fn climb(&self, s: &mut Scratch) -> Sides {
+        while let Some(n) = s.heap.pop() {
+            let node = &self.nodes[n as usize];
+            let sides = s.combine(node, n);
+            s.touched.push(n);
+            if s.heap.is_empty() {
+                s.value[n as usize] = sides;
+                return if node.carries { sides } else { Sides::default() };
+            }
+            s.settle(self, n, sides);
+        }
+        s.root_value()
+    }
+
+    /// A leaf is active if it and everything above it differs between the sides. The node touched last
+    /// stands for the whole.
     fn collect_active(&self, s: &mut Scratch, active: &mut Vec<u32>) {
-        for &n in s.touched.iter().rev().filter(|&&n| n != 0) {
+        for &n in s.touched.iter().rev().skip(1) {
             let up = self.nodes[n as usize].parent as usize;
             if !s.value[up].differ() {
                 s.value[n as usize] = Sides::default();
@@ -247,11 +261,67 @@ impl Draft {
             if let CsgOp::Leaf(i) = op {
                 leaves.entry(i).or_default().push(next as u32);
             }
-            nodes.push(Node { op, parent, removed, operands: operands.len() as u32 });
+            let carries = next == 0 || {
+                let up: &Node = &nodes[parent as usize];
+                up.carries && !removed && up.op != CsgOp::Intersection
+            };
+            nodes.push(Node { op, parent, removed, carries, operands: operands.len() as u32 });
             let difference = op == CsgOp::Difference;
             queue.extend(operands.iter().enumerate().map(|(k, &o)| (o, next as u32, difference && k > 0)));
             next += 1;
         }
         Tree { nodes, leaves }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All set expressions of one shape family, by the digits of a number.
+    fn expression(mut code: u32, leaves: u32) -> Csg {
+        let mut ops = vec![CsgOp::Leaf(0)];
+        let mut digit = |n: u32| {
+            let d = code % n;
+            code = code / n + 7 * d;
+            d
+        };
+        let op = |d| [CsgOp::Union, CsgOp::Difference, CsgOp::Intersection][d as usize];
+        for i in 1..leaves {
+            ops.push(CsgOp::Leaf(i));
+            if digit(3) == 0 {
+                ops.extend([CsgOp::Leaf(i / 2), op(digit(3))]);
+            }
+            ops.push(op(digit(3)));
+        }
+        Csg { ops }
+    }
+
+    #[test]
+    fn sparse_evaluation_agrees_with_the_postfix_program() {
+        let (mut scratch, mut active, mut stack) = (Scratch::default(), Vec::new(), Vec::new());
+        for code in 0..3_000 {
+            let csg = expression(code * 7919, 6);
+            let tree = Tree::new(&csg).expect("well formed");
+            for bits in 0..64u32 {
+                let other = bits.wrapping_mul(2_654_435_761) >> 26;
+                let side = |i: u32| Sides { left: bits >> i & 1 == 1, right: other >> i & 1 == 1 };
+                let given: Vec<_> = (0..6).map(|i| (i, side(i))).collect();
+                let found = tree.evaluate(&given, &mut scratch, &mut active);
+                assert_eq!(found.left, csg.contains(|i| side(i).left, &mut stack), "{csg:?}");
+                assert_eq!(found.right, csg.contains(|i| side(i).right, &mut stack), "{csg:?}");
+                assert_eq!(active.is_empty(), !found.differ());
+                assert!(active.iter().all(|&i| side(i).differ()));
+            }
+        }
+    }
+
+    #[test]
+    fn malformed_programs_are_refused() {
+        let new = |ops: &[CsgOp]| Tree::new(&Csg { ops: ops.to_vec() }).is_none();
+        assert!(new(&[CsgOp::Union]));
+        assert!(new(&[CsgOp::Leaf(0), CsgOp::Union]));
+        assert!(new(&[CsgOp::Leaf(0), CsgOp::Leaf(1)]));
+        assert!(!new(&[]));
     }
 }

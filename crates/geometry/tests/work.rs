@@ -99,6 +99,10 @@ fn staircases_in_height_are_layers() {
 fn too_many_crossings_are_refused() {
     let spokes = (0..MANY).map(|i| Solid::block(10.0, 0.001, 1.0).turned_by(i as f64 * 0.036).primitives[0]);
     assert_eq!(find(&union(spokes)), Err(OutlineError::TooComplex));
+}
+
+#[test]
+fn too_many_levels_are_refused() {
     let steps = (0..MANY).map(|i| {
         let solid = Solid::block(1.0, 1.0, 2e4 - 2.0 * i as f64).at(0.0, 0.0, i as f64);
         solid.primitives[0]
