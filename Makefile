@@ -30,8 +30,8 @@ test: build ## all tests, Rust and Python
 check: build ## format, lint, types, layers, links
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
-	$(VENV)/bin/ruff format --check python tests scripts
-	$(VENV)/bin/ruff check python tests scripts
+	$(VENV)/bin/ruff format --check python tests scripts benchmarks
+	$(VENV)/bin/ruff check python tests scripts benchmarks
 	$(VENV)/bin/mypy
 	$(PY) -m mypy.stubtest mainspring._core --ignore-disjoint-bases
 	$(VENV)/bin/lint-imports --no-cache
@@ -52,8 +52,8 @@ pictures: build ## draw the pictures of README and documentation anew
 
 format: $(VENV)/ready ## put all code in shape
 	cargo fmt --all
-	$(VENV)/bin/ruff format python tests scripts
-	$(VENV)/bin/ruff check --fix python tests scripts
+	$(VENV)/bin/ruff format python tests scripts benchmarks
+	$(VENV)/bin/ruff check --fix python tests scripts benchmarks
 
 clean: ## remove what was built
 	rm -rf $(VENV) target mainspring-demo python/mainspring/*.so

@@ -61,7 +61,11 @@ class Mechanism:
         max_steps: int | None = None,
         progress: Callable[[float], bool] | None = None,
     ) -> Run:
-        """Run to time `until`; `progress(t)` returns False to stop early."""
+        """Run to time `until`.
+
+        `progress(t)` is called now and then (about every hundred events), never inside a step; returning
+        False stops the run with status `stopped` and everything up to then.
+        """
 
     def predict(
         self,
@@ -79,7 +83,10 @@ class Mechanism:
         max_time: float = ...,
         progress: Callable[[float], bool] | None = None,
     ) -> Prediction:
-        """Run until it is known what repeats (Gelsey 1995, Algorithm 12, corrected)."""
+        """Run until it is known what repeats (Gelsey 1995, Algorithm 12, corrected).
+
+        `progress` as for `simulate`; a stopped search has status `stopped`.
+        """
 
 @final
 class Run:

@@ -36,6 +36,12 @@ class Spiral:
         x, y = self.center
         return f"{number(x + radius * math.cos(angle))} {number(y + radius * math.sin(angle))}"
 
+    @property
+    def fixed(self) -> Xy:
+        """The end held by the frame."""
+        slant = math.sqrt(0.5) * self.outer
+        return self.center[0] - slant, self.center[1] + slant
+
     def data(self) -> dict[str, Any]:
         """Return what the page needs to draw it."""
         return {"kind": "spiral", "c": self.center, "r": [self.inner, self.outer], "w": self.winding}
@@ -59,6 +65,11 @@ class Coil:
         steps += [(0.88, 0.0), (1.0, 0.0)]
         at = [(a * span - self.length, b) for a, b in steps]
         return "M" + "L".join(f"{number(x + a * dx - b * dy)} {number(y + a * dy + b * dx)}" for a, b in at)
+
+    @property
+    def fixed(self) -> Xy:
+        """The end held by the frame."""
+        return self.end[0] - self.length * self.direction[0], self.end[1] - self.length * self.direction[1]
 
     def data(self) -> dict[str, Any]:
         """Return what the page needs to draw it."""

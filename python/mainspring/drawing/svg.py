@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mainspring.drawing.outline import number, path
+from mainspring.drawing.outline import Xy, number, path
 from mainspring.drawing.palette import colour_class, variables
 from mainspring.drawing.pose import Part, bounds, part_points, transform
 from mainspring.drawing.spring import shape
@@ -19,6 +19,7 @@ STYLE = (
     ".axis{stroke:var(--ink);stroke-width:.8;fill:none}"
     ".slideway{stroke:var(--c);stroke-width:.8;stroke-dasharray:9 3 1.5 3;fill:none}"
     ".pitch{stroke:var(--c);stroke-width:1;stroke-dasharray:9 3 1.5 3;fill:none}"
+    ".anchor{stroke:var(--frame);stroke-width:5;stroke-linecap:round}"
     ".spring{stroke:var(--c);stroke-width:1.1;fill:none;stroke-linejoin:round;stroke-linecap:round}"
 )
 
@@ -84,6 +85,10 @@ def _bodies(parts: list[Part], q: Mapping[str, float]) -> str:
     return "".join(drawn)
 
 
+def _xy(p: Xy) -> str:
+    return f"{number(p[0])} {number(p[1])}"
+
+
 def _cross(center: list[float], arm: float) -> str:
     x, y = center
     h = f"M{number(x - arm)} {number(y)}H{number(x + arm)}"
@@ -130,7 +135,9 @@ def _springs(outlines: dict[str, Any], q: Mapping[str, float]) -> str:
         form = shape(parts[name], spring, outlines["size"])
         if form:
             curve = form.path(q.get(name, 0.0))
-            drawn.append(f'<path class="spring {colour[name]}" data-spring="{index}" d="{curve}"/>')
+            part = html.escape(name, quote=True)
+            kind = f'class="spring {colour[name]}" data-part="{part}" data-spring="{index}"'
+            drawn.append(f'<path {kind} d="{curve}"/><path class="anchor" d="M{_xy(form.fixed)}h0"/>')
     return "".join(drawn)
 
 

@@ -168,10 +168,10 @@
   // Pointing at a part lights its curve, pointing at a curve its part.
   function point(name) {
     for (const box of [stage, plots]) box.classList.toggle("pointing", column.has(name));
-    for (const g of all("g.part", svg)) g.classList.toggle("lit", g.dataset.part === name);
+    for (const g of all(".part,.spring", svg)) g.classList.toggle("lit", g.dataset.part === name);
     for (const p of panels) p.p.classList.toggle("lit", p.name === name);
   }
-  svg.addEventListener("pointerover", (e) => { const g = e.target.closest("g.part"); point(g ? g.dataset.part : null); });
+  svg.addEventListener("pointerover", (e) => { const g = e.target.closest(".part,.spring"); point(g ? g.dataset.part : null); });
   svg.addEventListener("pointerleave", () => point(null));
   for (const { p, name } of panels) {
     p.querySelector(".label").addEventListener("pointerenter", () => point(name));
