@@ -16,3 +16,12 @@ pub use placed::{MAX_CHAIN, MAX_ROW, Placed, PointMotion, Row};
 pub use source::{Candidate, ContactId, ContactSource, DirectSearch};
 pub use system::{Body, Coordinate, Joint, Motion, Pose};
 pub use tree::{FeatureTree, Node};
+
+// Kinematics: from shapes to pairs, mobility and subsystems.
+mod kinematics;
+
+pub use kinematics::{
+    AxisLine, Bounds, ClosedChain, CompileOptions, Dropped, Evidence, EvidenceKind, Freedom, JointSpring,
+    Mechanism, NearMiss, Pair, PairKind, Part, Subsystem, Symmetry, SymmetryType, Warning, WorkingPlane,
+    canonical,
+};

@@ -1,0 +1,138 @@
+//! From shapes to pairs in the machine: lower pairs, gears, what the pairs forbid each other, what nothing uses.
+
+use super::axial::{self, Parts};
+use super::fits::Solid;
+use super::gears::{GearData, meshes};
+use super::lower::lower_pairs;
+use super::mechanism::{CompileOptions, Warning};
+use super::mobility::{ClosedChain, Loops, loops, without};
+use super::near_miss::Miss;
+use super::pair::{Dropped, Freedom, Pair, PairKind};
+use super::patch::Scene;
+use super::plane::{self, WorkingPlane};
+use super::subsystems::holds;
+use mainspring_geometry::Csg;
+
+/// The shapes of all parts.
+pub(crate) struct Shapes<'a> {
+    pub scene: &'a Scene<'a>,
+    pub solids: &'a [Solid<'a>],
+    pub csgs: &'a [&'a Csg],
+    pub leaves: &'a [Vec<u32>],
+    pub label: &'a dyn Fn(u32) -> String,
+}
+
+/// What the shapes say about motion.
+pub(crate) struct Found {
+    pub pairs: Vec<Pair>,
+    pub misses: Vec<Miss>,
+    pub plane: WorkingPlane,
+    pub closed_chains: Vec<ClosedChain>,
+    pub mobility: usize,
+    pub warnings: Vec<Warning>,
+}
+
+pub(crate) fn analyse(
+    shapes: &Shapes<'_>,
+    gears: &[GearData],
+    frame: usize,
+    size: f64,
+    options: &CompileOptions,
+) -> Found {
+    let scene = shapes.scene;
+    let parts = shapes.csgs.len();
+    let lower = lower_pairs(scene, shapes.solids, options.pair_clearance);
+    let (mut pairs, mut misses) = (lower.pairs, lower.misses);
+    let meshes = meshes(gears, &pairs, scene.tolerance);
+    pairs.extend(meshes.pairs);
+    misses.extend(meshes.misses);
+    let mut warnings: Vec<Warning> = meshes.warnings.into_iter().map(plain).collect();
+
+    let (loops, too_large) = loops(parts, frame, &pairs, size);
+    warnings.extend(
+        too_large.iter().map(|p| plain(format!("a loop of {} parts is too large to be examined", p.len()))),
+    );
+    let blocked: Vec<(usize, Freedom)> = loops.iter().flat_map(Loops::unavailable).collect();
+    for (index, freedom) in &blocked {
+        drop_freedom(&mut pairs[*index], *freedom, true, "the other pairs of its loop forbid it".into());
+    }
+    let plane = plane::choose(&pairs, scene.primitives, shapes.csgs);
+    let mut left_out = blocked;
+    if !options.keep_axial {
+        let idle = idle(shapes, &pairs, frame, &plane, &loops);
+        for (index, freedom) in &idle.left_out {
+            drop_freedom(&mut pairs[*index], *freedom, false, idle_reason(*freedom));
+        }
+        left_out.extend(&idle.left_out);
+        warnings.extend(idle.kept.iter().map(|(index, why)| kept(&pairs[*index], why)));
+    }
+    let closed_chains = chains(&loops, &left_out);
+    let mobility = mobility(&pairs, &loops, &left_out);
+    let plane = WorkingPlane { planar: plane::is_planar(&pairs, plane.normal), ..plane };
+    Found { pairs, misses, plane, closed_chains, mobility, warnings }
+}
+
+fn plain(message: String) -> Warning {
+    Warning { place: None, parts: vec![], message }
+}
+
+fn idle(
+    shapes: &Shapes<'_>,
+    pairs: &[Pair],
+    frame: usize,
+    plane: &WorkingPlane,
+    loops: &[Loops],
+) -> axial::Idle {
+    let holds = holds(shapes.csgs.len(), frame, pairs);
+    let parts = Parts {
+        primitives: shapes.scene.primitives,
+        boxes: shapes.scene.boxes,
+        leaves: shapes.leaves,
+        holds: &holds,
+        pairs,
+        label: shapes.label,
+    };
+    axial::idle(&parts, plane.normal, loops)
+}
+
+fn drop_freedom(pair: &mut Pair, freedom: Freedom, blocked: bool, reason: String) {
+    pair.kind = without(pair.kind, freedom);
+    pair.dropped.push(Dropped { freedom, blocked, reason });
+}
+
+fn idle_reason(freedom: Freedom) -> String {
+    match freedom {
+        Freedom::Sliding => {
+            "no spring, force, initial velocity, other pair or possible contact normal has a \
+                             component along the axis"
+                .into()
+        }
+        Freedom::Turning => "all motion is planar and the axis lies in the plane: no spring, force, initial \
+                             velocity or other pair turns the part about it"
+            .into(),
+    }
+}
+
+fn kept(pair: &Pair, why: &str) -> Warning {
+    let parts = vec![pair.parts.0, pair.parts.1];
+    Warning { place: None, parts, message: format!("this cylindrical pair keeps both freedoms: {why}") }
+}
+
+/// The loops to be told: all but trains of gears that can move.
+fn chains(loops: &[Loops], left_out: &[(usize, Freedom)]) -> Vec<ClosedChain> {
+    let tell = |l: &Loops| ClosedChain {
+        parts: l.parts.clone(),
+        mobility: l.mobility(left_out),
+        gears_only: l.gears_only,
+    };
+    loops.iter().map(tell).filter(|c| !c.gears_only || c.mobility == 0).collect()
+}
+
+/// Free motions of the loops, and one for each freedom of the pairs in none.
+fn mobility(pairs: &[Pair], loops: &[Loops], left_out: &[(usize, Freedom)]) -> usize {
+    let alone =
+        |(index, p): &(usize, &Pair)| p.kind != PairKind::Gear && !loops.iter().any(|l| l.has(*index));
+    let freedoms = |p: &Pair| usize::from(p.kind.turns()) + usize::from(p.kind.slides());
+    let open: usize = pairs.iter().enumerate().filter(alone).map(|(_, p)| freedoms(p)).sum();
+    open + loops.iter().map(|l| l.mobility(left_out)).sum::<usize>()
+}

@@ -1,0 +1,171 @@
+//! From a machine and parameter values to a mechanism.
+
+use super::analysis::{Found, Shapes, analyse};
+use super::bounds::Bounds;
+use super::fits::Solid;
+use super::gears::{GearData, Member, is_internal};
+use super::lower::{RELATIVE_TOLERANCE, solid};
+use super::mechanism::{CompileOptions, Mechanism, Part};
+use super::near_miss::{Miss, NearMiss};
+use super::patch::Scene;
+use super::plane::WorkingPlane;
+use super::subsystems::{holds, subsystems};
+use super::supplement::{given, reflected};
+use super::surface::lateral;
+use super::symmetry::symmetries;
+use super::words;
+use mainspring_geometry::{Csg, Outline, OutlineError, OutlineRecipe, Primitive};
+use mainspring_model::{Error, Machine, Values};
+use std::sync::Arc;
+
+impl Mechanism {
+    /// Finds the pairs, subsystems and outlines of a machine with some parameters overridden.
+    ///
+    /// # Errors
+    /// Wrong parameters or sizes, no frame, values of the supplement that contradict each other, parts that overlap
+    /// at the start. Parts held by nothing, closed chains and pairs with two freedoms are no errors here.
+    pub fn compile(
+        machine: Arc<Machine>,
+        set: &[(String, f64)],
+        options: &CompileOptions,
+    ) -> Result<Mechanism, Error> {
+        let values = machine.values(set)?;
+        let primitives = machine.primitives(&values)?;
+        let frame = machine.frame().ok_or_else(|| no_frame(&machine))?;
+        let mut mechanism = assemble(machine, &values, primitives, frame, options)?;
+        given(&mut mechanism, &values)?;
+        reflected(&mut mechanism);
+        mechanism.check_start()?;
+        Ok(mechanism)
+    }
+}
+
+fn no_frame(machine: &Machine) -> Error {
+    let place = machine.parts().first().map_or(Default::default(), |p| p.place);
+    machine.error(place, "no part is marked as the frame, expected a line like: attr frame : frame = 1")
+}
+
+fn assemble(
+    machine: Arc<Machine>,
+    values: &Values<f64>,
+    primitives: Vec<Primitive>,
+    frame: usize,
+    options: &CompileOptions,
+) -> Result<Mechanism, Error> {
+    let boxes: Vec<Bounds> = primitives.iter().map(Bounds::of).collect();
+    let models = machine.parts();
+    let solids: Vec<Solid<'_>> = models.iter().map(|p| solid(&primitives, &boxes, &p.csg)).collect();
+    let size = solids.iter().fold(Bounds::EMPTY, |b, s| b.join(&s.bounds)).diagonal();
+    let scene = Scene { primitives: &primitives, boxes: &boxes, tolerance: RELATIVE_TOLERANCE * size };
+    let csgs: Vec<&Csg> = models.iter().map(|p| &p.csg).collect();
+    let leaves: Vec<Vec<u32>> = csgs.iter().map(|c| leaves(c)).collect();
+    let label = |i: u32| machine.label_of_primitive(i);
+
+    let gears = gear_data(&machine, values, &scene, &solids)?;
+    let shapes = Shapes { scene: &scene, solids: &solids, csgs: &csgs, leaves: &leaves, label: &label };
+    let Found { mut pairs, misses, plane, closed_chains, mobility, warnings } =
+        analyse(&shapes, &gears, frame, size, options);
+    let name = |i: usize| models[i].name.clone();
+    words::tell(&mut pairs, name, label);
+
+    let holds = holds(models.len(), frame, &pairs);
+    let subsystems = subsystems(&holds, &pairs);
+    let parts = (0..models.len())
+        .map(|i| {
+            let (outline, recipe, note) = outline(&primitives, csgs[i], &plane, &label);
+            Part {
+                name: name(i),
+                is_frame: i == frame,
+                csg: csgs[i].clone(),
+                bounds: solids[i].bounds,
+                size: solids[i].bounds.diagonal(),
+                symmetries: symmetries(&primitives, &leaves[i], scene.tolerance),
+                joint: holds[i].map(|h| h.pair),
+                carrier: holds[i].map(|h| h.carrier),
+                inertia: None,
+                inertia_from_density: false,
+                friction: 0.0,
+                spring: None,
+                position: 0.0,
+                velocity: 0.0,
+                outline,
+                recipe,
+                note,
+                place: models[i].place,
+            }
+        })
+        .collect();
+    let near_misses = misses.iter().map(|m| near_miss(m, &name)).collect();
+    let numbers = values.as_slice();
+    let parameters = machine.parameters().iter().zip(numbers).map(|(p, v)| (p.name.clone(), *v)).collect();
+    let tolerance = scene.tolerance;
+    Ok(Mechanism {
+        machine: machine.clone(),
+        parameters,
+        options: *options,
+        parts,
+        frame,
+        pairs,
+        near_misses,
+        subsystems,
+        closed_chains,
+        mobility,
+        plane,
+        warnings,
+        size,
+        primitives,
+        tolerance,
+    })
+}
+
+fn leaves(csg: &Csg) -> Vec<u32> {
+    let mut leaves: Vec<u32> = csg.leaves().collect();
+    leaves.sort_unstable();
+    leaves.dedup();
+    leaves
+}
+
+fn gear_data(
+    machine: &Machine,
+    values: &Values<f64>,
+    scene: &Scene<'_>,
+    solids: &[Solid<'_>],
+) -> Result<Vec<GearData>, Error> {
+    let mut gears = Vec::new();
+    for gear in machine.gears() {
+        let of = |m: &mainspring_model::GearMember| {
+            let lateral = lateral(m.primitive, &scene.primitives[m.primitive as usize])?;
+            Some(Member { lateral, internal: is_internal(scene, &solids[gear.part], &lateral, m.adds) })
+        };
+        gears.push(GearData {
+            part: gear.part,
+            members: gear.members.iter().filter_map(of).collect(),
+            teeth: machine.teeth(gear, values)?,
+            depth: machine.tooth_depth(gear, values)?,
+            name: gear.name.clone(),
+        });
+    }
+    Ok(gears)
+}
+
+/// The section in the working plane with its recipe, or why there is none.
+fn outline(
+    primitives: &[Primitive],
+    csg: &Csg,
+    plane: &WorkingPlane,
+    label: &impl Fn(u32) -> String,
+) -> (Option<Outline>, Option<OutlineRecipe>, Option<String>) {
+    match OutlineRecipe::find(primitives, csg, &plane.plane_from_machine) {
+        Ok(recipe) => (Some(recipe.evaluate(primitives, &plane.plane_from_machine)), Some(recipe), None),
+        Err(OutlineError::NotPrismatic { primitive, .. }) => {
+            let text = format!("{} is no prism along the normal of the working plane", label(primitive));
+            (None, None, Some(text))
+        }
+        Err(error) => (None, None, Some(error.to_string())),
+    }
+}
+
+fn near_miss(miss: &Miss, name: &impl Fn(usize) -> String) -> NearMiss {
+    let of = |i: usize| name(if i == 0 { miss.parts.0 } else { miss.parts.1 });
+    NearMiss { parts: miss.parts, primitives: miss.primitives, reason: miss.reason(of) }
+}

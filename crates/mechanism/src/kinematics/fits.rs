@@ -1,0 +1,160 @@
+//! Everything in which two parts fit each other: shafts in holes, faces on faces; and what nearly does.
+
+use super::bounds::Bounds;
+use super::cylinder_fit;
+use super::patch::{Meeting, Scene, Seen, Site};
+use super::plane_fit::{self, PlanePatch};
+use super::surface::{Face, Lateral, off_line, parallel};
+use mainspring_geometry::Vec3;
+
+/// A part with its surfaces, as the search sees it.
+pub(crate) struct Solid<'a> {
+    pub site: Site<'a>,
+    pub bounds: Bounds,
+    pub laterals: Vec<Lateral>,
+    pub faces: Vec<Face>,
+}
+
+/// A shaft of one part in a hole of the other.
+#[derive(Debug)]
+pub(crate) struct ShaftFit {
+    pub laterals: [Lateral; 2],
+    /// Which of the two has the material inside.
+    pub solid: usize,
+    pub clearance: f64,
+    /// Along the axis, from the middle of the first lateral.
+    pub span: (f64, f64),
+    /// Angles about the axis where they meet, from the first direction of `across`.
+    pub arcs: Vec<(f64, f64)>,
+}
+
+/// Two coaxial (or nearly coaxial) cylinders that do not fit, and what was seen of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShaftMiss {
+    pub laterals: [Lateral; 2],
+    /// Distance of the axes.
+    pub offset: f64,
+    /// No common stretch of the axis, by this length.
+    pub gap: Option<f64>,
+    pub seen: [Seen; 2],
+}
+
+/// Radii further apart than this part of the larger one are no near miss.
+const NEAR_RADIUS: f64 = 0.25;
+/// Axes further apart than this part of the radius are no near miss.
+const NEAR_OFFSET: f64 = 0.1;
+/// Face pairs examined for each pair of parts.
+const MAX_FACE_PAIRS: usize = 4096;
+
+pub(crate) fn shafts(
+    scene: &Scene<'_>,
+    solids: [&Solid<'_>; 2],
+    clearance: f64,
+) -> (Vec<ShaftFit>, Vec<ShaftMiss>) {
+    let (mut fits, mut misses) = (Vec::new(), Vec::new());
+    for a in &solids[0].laterals {
+        for b in &solids[1].laterals {
+            let difference = (a.radius - b.radius).abs();
+            let larger = a.radius.max(b.radius);
+            if difference > NEAR_RADIUS * larger + clearance || !parallel(a.direction, b.direction) {
+                continue;
+            }
+            let offset = off_line(b.middle, a.middle, a.direction);
+            let laterals = [*a, *b];
+            let miss = |gap, seen| ShaftMiss { laterals, offset, gap, seen };
+            if offset > scene.tolerance {
+                if offset <= NEAR_OFFSET * larger && difference <= scene.tolerance {
+                    let meeting = cylinder_fit::meet(scene, [&solids[0].site, &solids[1].site], a, b);
+                    misses.push(miss(None, meeting.seen));
+                }
+                continue;
+            }
+            if cylinder_fit::common_span(a, b, scene.tolerance).is_none() {
+                let apart = (b.middle - a.middle).dot(a.direction).abs() - 0.5 * (a.height + b.height);
+                if difference <= scene.tolerance {
+                    misses.push(miss(Some(apart.max(0.0)), [Seen::default(); 2]));
+                }
+                continue;
+            }
+            let meeting = cylinder_fit::meet(scene, [&solids[0].site, &solids[1].site], a, b);
+            match shaft_fit(laterals, &meeting, difference, clearance, scene.tolerance) {
+                Some(fit) => fits.push(fit),
+                None => misses.push(miss(None, meeting.seen)),
+            }
+        }
+    }
+    (fits, misses)
+}
+
+fn shaft_fit(
+    laterals: [Lateral; 2],
+    meeting: &Meeting,
+    difference: f64,
+    clearance: f64,
+    tolerance: f64,
+) -> Option<ShaftFit> {
+    let exact = difference <= tolerance;
+    if !exact && difference > clearance + tolerance {
+        return None;
+    }
+    let smaller_first = laterals[0].radius < laterals[1].radius;
+    let first = meeting.cells.first()?;
+    let first_is_solid = if exact { first.first_is_solid } else { smaller_first };
+    let mut cells = meeting.cells.iter().filter(|c| c.first_is_solid == first_is_solid).peekable();
+    cells.peek()?;
+    let (mut span, mut arcs) = ((f64::INFINITY, f64::NEG_INFINITY), Vec::<(f64, f64)>::new());
+    for cell in cells {
+        span = (span.0.min(cell.t.0), span.1.max(cell.t.1));
+        match arcs.last_mut() {
+            Some(last) if cell.s.0 <= last.1 => last.1 = last.1.max(cell.s.1),
+            _ => arcs.push(cell.s),
+        }
+    }
+    let clearance = if exact { 0.0 } else { difference };
+    Some(ShaftFit { laterals, solid: usize::from(!first_is_solid), clearance, span, arcs })
+}
+
+/// All patches in which plane faces of the two parts meet, at a distance up to `clearance`. `wanted` says whether
+/// faces of a normal matter.
+pub(crate) fn face_patches(
+    scene: &Scene<'_>,
+    solids: [&Solid<'_>; 2],
+    clearance: f64,
+    wanted: impl Fn(Vec3) -> bool,
+) -> Vec<PlanePatch> {
+    let mut patches = Vec::new();
+    for (a, b) in face_pairs(solids, clearance + scene.tolerance, wanted).into_iter().take(MAX_FACE_PAIRS) {
+        patches.extend(plane_fit::meet(scene, [&solids[0].site, &solids[1].site], &a, &b));
+    }
+    patches
+}
+
+/// Faces in parallel planes at most `reach` apart, the first face's normal pointing to the second where they do
+/// not coincide.
+pub(crate) fn face_pairs(
+    solids: [&Solid<'_>; 2],
+    reach: f64,
+    wanted: impl Fn(Vec3) -> bool,
+) -> Vec<(Face, Face)> {
+    let near = |of: &Solid<'_>, other: &Solid<'_>| -> Vec<Face> {
+        let zone = other.bounds.grown(reach);
+        let touches = |f: &&Face| Bounds::of_points(f.corners()).touches(&zone) && wanted(f.normal);
+        of.faces.iter().filter(touches).copied().collect()
+    };
+    let (first, second) = (near(solids[0], solids[1]), near(solids[1], solids[0]));
+    let mut pairs = Vec::new();
+    for a in &first {
+        for b in &second {
+            let gap = (b.middle - a.middle).dot(a.normal);
+            if gap.abs() > reach || !parallel(a.normal, b.normal) {
+                continue;
+            }
+            let boxes = [a, b].map(|f| Bounds::of_points(f.corners()).grown(reach));
+            if boxes[0].touches(&boxes[1]) {
+                let normal = if gap < 0.0 { -a.normal } else { a.normal };
+                pairs.push((Face { normal, ..*a }, *b));
+            }
+        }
+    }
+    pairs
+}

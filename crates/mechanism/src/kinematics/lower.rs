@@ -1,0 +1,74 @@
+//! All lower pairs of a machine, and what nearly was one.
+
+use super::bounds::Bounds;
+use super::fits::Solid;
+use super::near_miss::{Miss, relevant};
+use super::pair::Pair;
+use super::patch::{Scene, Site};
+use super::search::{self, Found};
+use super::surface::{faces, lateral};
+use mainspring_geometry::{Csg, Primitive};
+
+/// Lower pairs in the order of the parts, and near misses.
+pub(crate) struct Lower {
+    pub pairs: Vec<Pair>,
+    pub misses: Vec<Miss>,
+}
+
+/// A point is on a surface within this part of the machine's size.
+pub(crate) const RELATIVE_TOLERANCE: f64 = 1e-9;
+
+/// The part's solid and its surfaces.
+pub(crate) fn solid<'a>(primitives: &[Primitive], boxes: &[Bounds], csg: &'a Csg) -> Solid<'a> {
+    let mut leaves: Vec<u32> = csg.leaves().collect();
+    leaves.sort_unstable();
+    leaves.dedup();
+    let of = |i: &u32| &primitives[*i as usize];
+    Solid {
+        site: Site { csg },
+        bounds: leaves.iter().fold(Bounds::EMPTY, |b, i| b.join(&boxes[*i as usize])),
+        laterals: leaves.iter().filter_map(|i| lateral(*i, of(i))).collect(),
+        faces: leaves.iter().flat_map(|i| faces(*i, of(i))).collect(),
+    }
+}
+
+pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f64) -> Lower {
+    let mut findings = Vec::new();
+    for j in 1..solids.len() {
+        for i in 0..j {
+            let finding = search::find(scene, [&solids[i], &solids[j]], (i, j), clearance);
+            findings.push(((i, j), finding));
+        }
+    }
+    findings.sort_by_key(|(parts, _)| *parts);
+    keep_needed(&mut findings, solids.len());
+    let mut misses = Vec::new();
+    for (parts, finding) in &findings {
+        let pair = finding.pair.as_ref().map(|f| &f.pair);
+        let mut found = relevant(*parts, finding, pair, scene.tolerance);
+        if pair.is_none() && found.is_empty() {
+            let pair = [&solids[parts.0], &solids[parts.1]];
+            found.extend(search::with_more_play(scene, pair).map(|(p, play)| Miss::play(*parts, p, play)));
+        }
+        misses.extend(found);
+    }
+    let pairs = findings.into_iter().filter_map(|(_, f)| f.pair).map(|f| f.pair).collect();
+    Lower { pairs, misses }
+}
+
+/// A fit that leaves a way out holds only while something keeps the part in it: it makes a pair for a part that has
+/// no closed pair, and else is left to contact.
+fn keep_needed(findings: &mut [((usize, usize), search::Finding)], parts: usize) {
+    let mut closed = vec![false; parts];
+    let is_closed = |f: &Found| !f.open;
+    for ((i, j), finding) in findings.iter() {
+        if finding.pair.as_ref().is_some_and(is_closed) {
+            (closed[*i], closed[*j]) = (true, true);
+        }
+    }
+    for ((i, j), finding) in findings.iter_mut() {
+        if closed[*i] && closed[*j] && finding.pair.as_ref().is_some_and(|f| f.open) {
+            finding.left_open = finding.pair.take().map(|f| f.pair.evidence[0].primitives);
+        }
+    }
+}

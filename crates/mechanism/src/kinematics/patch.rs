@@ -1,0 +1,123 @@
+//! Where two coincident surfaces meet in the finished parts.
+//!
+//! The surface is cut into cells by everything that reaches it: scan lines at the middle of every interval between
+//! events, and along each line the exact crossings with every wall. A cell counts if the material of one part lies
+//! behind the surface and that of the other ahead of it, both judged at the cell's middle.
+
+use super::bounds::Bounds;
+use super::region::{Region, Sides};
+use mainspring_geometry::Vec3;
+
+/// A piece of surface where the parts meet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cell {
+    /// Interval of the scan parameter: an angle (radians) or a length.
+    pub s: (f64, f64),
+    /// Interval along the scan line.
+    pub t: (f64, f64),
+    /// The first part's material lies behind the surface (its normal points out of the first part).
+    pub first_is_solid: bool,
+}
+
+/// What was found on a surface, also where the parts do not meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Seen {
+    pub solid: bool,
+    pub hollow: bool,
+}
+
+#[derive(Debug, Default)]
+pub(crate) struct Meeting {
+    pub cells: Vec<Cell>,
+    /// How the surface of the first and of the second part was seen.
+    pub seen: [Seen; 2],
+}
+
+/// A scan line: where it starts on the surface of the first and of the second part (they differ by the
+/// clearance), its unit direction, and the surface's normal along it.
+pub(crate) struct Line {
+    pub from: [Vec3; 2],
+    pub along: Vec3,
+    pub normal: Vec3,
+}
+
+/// At most this many scan lines are laid over one surface.
+const MAX_LINES: usize = 2048;
+
+/// Scans a surface. `breaks` are the events of the scan parameter, its ends included; `span` the interval along
+/// the lines; pieces narrower than `least_s` or `tolerance` are not counted.
+pub(crate) fn scan(
+    regions: [&Region; 2],
+    mut breaks: Vec<f64>,
+    span: (f64, f64),
+    least_s: f64,
+    tolerance: f64,
+    line: impl Fn(f64) -> Line,
+) -> Meeting {
+    breaks.sort_by(f64::total_cmp);
+    let mut meeting = Meeting::default();
+    let stride = breaks.len().div_ceil(MAX_LINES).max(1);
+    let mut from = breaks[0];
+    for &to in breaks[1..].iter().step_by(stride).chain(breaks.last()) {
+        if to - from > least_s {
+            scan_line(regions, &line(0.5 * (from + to)), (from, to), span, tolerance, &mut meeting);
+            from = to;
+        }
+    }
+    meeting
+}
+
+fn scan_line(
+    regions: [&Region; 2],
+    line: &Line,
+    s: (f64, f64),
+    span: (f64, f64),
+    tolerance: f64,
+    meeting: &mut Meeting,
+) {
+    let mut cuts = vec![span.0, span.1];
+    for (region, from) in regions.iter().zip(line.from) {
+        region.crossings(from, line.along, &mut cuts);
+    }
+    cuts.retain(|&t| t >= span.0 && t <= span.1);
+    cuts.sort_by(f64::total_cmp);
+    let mut stack = Vec::new();
+    let mut from = cuts[0];
+    for &to in &cuts[1..] {
+        if to - from <= tolerance {
+            continue;
+        }
+        let middle = line.along * (0.5 * (from + to));
+        let [a, b] = [0, 1].map(|i| regions[i].sides(line.from[i] + middle, line.normal, &mut stack));
+        note(&mut meeting.seen, a, b);
+        if (a.is_solid() && b.is_hollow()) || (a.is_hollow() && b.is_solid()) {
+            meeting.cells.push(Cell { s, t: (from, to), first_is_solid: a.is_solid() });
+        }
+        from = to;
+    }
+}
+
+fn note(seen: &mut [Seen; 2], a: Sides, b: Sides) {
+    for (seen, sides) in seen.iter_mut().zip([a, b]) {
+        seen.solid |= sides.is_solid();
+        seen.hollow |= sides.is_hollow();
+    }
+}
+
+/// A part as the search for pairs sees it.
+pub(crate) struct Site<'a> {
+    pub csg: &'a mainspring_geometry::Csg,
+}
+
+/// What every search needs: all primitives, their boxes, and the tolerance as a length.
+pub(crate) struct Scene<'a> {
+    pub primitives: &'a [mainspring_geometry::Primitive],
+    pub boxes: &'a [Bounds],
+    pub tolerance: f64,
+}
+
+impl Scene<'_> {
+    pub(crate) fn region(&self, site: &Site<'_>, near: &Bounds) -> Region {
+        Region::new(self.primitives, site.csg, self.boxes, near, self.tolerance)
+    }
+}

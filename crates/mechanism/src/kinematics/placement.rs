@@ -1,0 +1,100 @@
+//! Where parts stand at given joint positions, and whether they overlap at the start.
+
+use super::bounds::Bounds;
+use super::chain::turn;
+use super::mechanism::Mechanism;
+use super::pair::{EvidenceKind, PairKind};
+use super::start::{Envelopes, Start};
+use mainspring_geometry::{Primitive, Rigid3};
+use mainspring_model::Error;
+
+impl Mechanism {
+    /// Where each part has moved from its modelled place at the initial positions: machine_from_modelled.
+    pub fn start_poses(&self) -> Vec<Rigid3> {
+        (0..self.parts.len()).map(|p| self.start_pose(p)).collect()
+    }
+
+    fn start_pose(&self, part: usize) -> Rigid3 {
+        let (mut pose, mut at) = (Rigid3::identity(), part);
+        // At most as many carriers as parts.
+        for _ in 0..self.parts.len() {
+            let (Some(joint), Some(carrier)) = (self.parts[at].joint, self.parts[at].carrier) else { break };
+            let (pair, x) = (&self.pairs[joint], self.parts[at].position);
+            let motion = match pair.kind {
+                PairKind::Prismatic => Rigid3::translation(pair.axis.direction * x),
+                PairKind::Fixed => Rigid3::identity(),
+                _ if x == 0.0 => Rigid3::identity(),
+                _ => turn(pair.axis.point, pair.axis.direction, x),
+            };
+            pose = motion.then_after(&pose);
+            at = carrier;
+        }
+        pose
+    }
+
+    /// All primitives at the initial positions.
+    pub fn start_primitives(&self) -> Vec<Primitive> {
+        let mut primitives = self.primitives.clone();
+        for (part, pose) in self.parts.iter().zip(self.start_poses()) {
+            if pose != Rigid3::identity() {
+                for i in part.csg.leaves() {
+                    let p = &mut primitives[i as usize];
+                    p.machine_from_local = pose.then_after(&self.primitives[i as usize].machine_from_local);
+                }
+            }
+        }
+        primitives
+    }
+
+    /// Parts that overlap at the start are an error.
+    pub(crate) fn check_start(&self) -> Result<(), Error> {
+        let primitives = self.start_primitives();
+        let boxes: Vec<Bounds> = primitives.iter().map(Bounds::of).collect();
+        let around = |csg: &mainspring_geometry::Csg| {
+            csg.leaves().fold(Bounds::EMPTY, |b, i| b.join(&boxes[i as usize]))
+        };
+        let bounds: Vec<Bounds> = self.parts.iter().map(|p| around(&p.csg)).collect();
+        let start = Start {
+            primitives: &primitives,
+            boxes: &boxes,
+            plane_from_machine: self.plane.plane_from_machine,
+            tolerance: self.tolerance,
+        };
+        for j in 1..self.parts.len() {
+            for i in 0..j {
+                let (a, b) = (&self.parts[i], &self.parts[j]);
+                let meshes = self.envelopes(i, j);
+                if let Some(clash) = start.clash(&a.csg, &b.csg, [&bounds[i], &bounds[j]], &meshes) {
+                    let n = super::near_miss::number;
+                    let p = clash.point;
+                    let message = format!(
+                        "{} and {} overlap at the start, near ({}, {}, {}), expected parts that at most touch",
+                        a.name,
+                        b.name,
+                        n(p.x),
+                        n(p.y),
+                        n(p.z)
+                    );
+                    return Err(self.machine.error(self.machine.parts()[j].place, message));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn envelopes(&self, i: usize, j: usize) -> Vec<Envelopes> {
+        let gears = self.pairs.iter().filter(|p| p.kind == PairKind::Gear && p.parts == (i, j));
+        let of = |e: &super::pair::Evidence| {
+            let [a, b] = e.primitives;
+            let radius = |i: u32| Bounds::of(&self.primitives[i as usize]).diagonal();
+            match e.what {
+                EvidenceKind::Mesh { internal: true, .. } => {
+                    Some(Envelopes::Internal { pinion: if radius(a) < radius(b) { a } else { b } })
+                }
+                EvidenceKind::Mesh { .. } => Some(Envelopes::External([a, b])),
+                _ => None,
+            }
+        };
+        gears.flat_map(|p| p.evidence.iter().filter_map(of)).collect()
+    }
+}

@@ -1,0 +1,214 @@
+//! Where a part's material lies near a place: membership of points, decided on surfaces by direction.
+//!
+//! A point on a surface has no side of its own. Every wall of a primitive through the point (to a tolerance) is
+//! judged by the direction in which one leaves the point, so that coincident surfaces of several primitives are
+//! counted by orientation and never by rounding.
+
+use super::bounds::Bounds;
+use super::surface::faces;
+use mainspring_geometry::{Csg, CsgOp, Primitive, Rigid3, Shape, Vec3};
+
+/// Is there material just behind and just ahead of a point, seen along a direction?
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Sides {
+    pub behind: bool,
+    pub ahead: bool,
+}
+
+impl Sides {
+    /// A surface with its material behind it.
+    pub(crate) fn is_solid(self) -> bool {
+        self.behind && !self.ahead
+    }
+
+    /// A surface with its material ahead of it.
+    pub(crate) fn is_hollow(self) -> bool {
+        !self.behind && self.ahead
+    }
+}
+
+/// The primitives of a part that reach into a box, and the set expression left of them.
+pub(crate) struct Region {
+    pub members: Vec<Member>,
+    csg: Csg,
+    tolerance: f64,
+}
+
+pub(crate) struct Member {
+    pub shape: Shape,
+    pub machine_from_local: Rigid3,
+    local_from_machine: Rigid3,
+}
+
+impl Region {
+    /// `boxes[i]` bounds primitive `i`; `tolerance` is a length below which a point is on a wall.
+    pub(crate) fn new(all: &[Primitive], csg: &Csg, boxes: &[Bounds], near: &Bounds, tolerance: f64) -> Self {
+        let near = near.grown(4.0 * tolerance);
+        let mut members = Vec::new();
+        let csg = reduced(csg, |i| {
+            boxes[i as usize].touches(&near).then(|| {
+                members.push(Member::new(&all[i as usize]));
+                members.len() as u32 - 1
+            })
+        });
+        Region { members, csg, tolerance }
+    }
+
+    /// Is there material just off `p` in the unit direction `d`?
+    pub(crate) fn inside(&self, p: Vec3, d: Vec3, stack: &mut Vec<bool>) -> bool {
+        self.csg.contains(|i| self.members[i as usize].holds(p, d, self.tolerance), stack)
+    }
+
+    pub(crate) fn sides(&self, p: Vec3, normal: Vec3, stack: &mut Vec<bool>) -> Sides {
+        Sides { behind: self.inside(p, -normal, stack), ahead: self.inside(p, normal, stack) }
+    }
+
+    /// Appends every t at which `p + t w` (unit `w`) passes a wall of a member.
+    pub(crate) fn crossings(&self, p: Vec3, w: Vec3, out: &mut Vec<f64>) {
+        for member in &self.members {
+            member.crossings(p, w, out);
+        }
+    }
+}
+
+/// The expression with absent leaves taken as empty, and leaves renumbered by `keep`.
+fn reduced(csg: &Csg, mut keep: impl FnMut(u32) -> Option<u32>) -> Csg {
+    let mut ops: Vec<CsgOp> = Vec::new();
+    let mut stack: Vec<(usize, bool)> = Vec::new();
+    for op in &csg.ops {
+        if let CsgOp::Leaf(i) = *op {
+            let kept = keep(i);
+            stack.push((ops.len(), kept.is_some()));
+            ops.extend(kept.map(CsgOp::Leaf));
+            continue;
+        }
+        let (Some((start_b, b)), Some((start, a))) = (stack.pop(), stack.pop()) else { break };
+        let left = match op {
+            CsgOp::Union => a || b,
+            CsgOp::Difference => a,
+            _ => a && b,
+        };
+        match (a && b, left) {
+            (true, _) => ops.push(*op),
+            (false, true) if !b => ops.truncate(start_b),
+            (false, true) => {}
+            (false, false) => ops.truncate(start),
+        }
+        stack.push((start, left));
+    }
+    Csg { ops }
+}
+
+/// Signed distance inside a wall (to first order), and its rate along a direction.
+type Wall = (f64, f64);
+
+impl Member {
+    pub(crate) fn new(primitive: &Primitive) -> Self {
+        let Primitive { shape, machine_from_local } = *primitive;
+        Member { shape, machine_from_local, local_from_machine: machine_from_local.inverse() }
+    }
+
+    fn holds(&self, p: Vec3, d: Vec3, tolerance: f64) -> bool {
+        let (walls, n) = self.walls(p, d);
+        walls[..n].iter().all(|&(slack, rate)| slack > tolerance || (slack > -tolerance && rate > 1e-9))
+    }
+
+    /// Is the point inside or on the boundary, to the tolerance?
+    pub(crate) fn reaches(&self, p: Vec3, tolerance: f64) -> bool {
+        let (walls, n) = self.walls(p, Vec3::new(1.0, 0.0, 0.0));
+        walls[..n].iter().all(|&(slack, _)| slack > -tolerance)
+    }
+
+    fn walls(&self, p: Vec3, d: Vec3) -> ([Wall; 6], usize) {
+        let (q, e) = (self.local_from_machine.apply(p), self.local_from_machine.rotate(d));
+        let mut walls = [(0.0, 0.0); 6];
+        let rho = q.x.hypot(q.y);
+        let radial = if rho > 0.0 { (q.x * e.x + q.y * e.y) / rho } else { 0.0 };
+        let n = match self.shape {
+            Shape::Block { x, y, z } => {
+                walls =
+                    [(q.x, e.x), (x - q.x, -e.x), (q.y, e.y), (y - q.y, -e.y), (q.z, e.z), (z - q.z, -e.z)];
+                6
+            }
+            Shape::Cylinder { radius, height } => {
+                walls[..3].copy_from_slice(&[(q.z, e.z), (height - q.z, -e.z), (radius - rho, -radial)]);
+                3
+            }
+            Shape::Cone { radius, height } => {
+                let cos = height / radius.hypot(height);
+                let lateral = radius * (1.0 - q.z / height) - rho;
+                walls[..2]
+                    .copy_from_slice(&[(q.z, e.z), (lateral * cos, (-radius / height * e.z - radial) * cos)]);
+                2
+            }
+            Shape::Sphere { radius } => {
+                let r = q.norm();
+                walls[0] = (radius - r, if r > 0.0 { -q.dot(e) / r } else { 0.0 });
+                1
+            }
+            Shape::Wedge { x, y, z } => {
+                let k = x * z / x.hypot(z);
+                walls[..5].copy_from_slice(&[
+                    (q.x, e.x),
+                    (k * (1.0 - q.x / x - q.z / z), -k * (e.x / x + e.z / z)),
+                    (q.y, e.y),
+                    (y - q.y, -e.y),
+                    (q.z, e.z),
+                ]);
+                5
+            }
+        };
+        (walls, n)
+    }
+
+    /// Its plane walls as (unit normal, a point).
+    pub(crate) fn planes(&self) -> Vec<(Vec3, Vec3)> {
+        let primitive = Primitive { shape: self.shape, machine_from_local: self.machine_from_local };
+        faces(0, &primitive).into_iter().map(|f| (f.normal, f.middle)).collect()
+    }
+
+    fn crossings(&self, p: Vec3, w: Vec3, out: &mut Vec<f64>) {
+        let (q, e) = (self.local_from_machine.apply(p), self.local_from_machine.rotate(w));
+        let flat = |out: &mut Vec<f64>, slack: f64, rate: f64| {
+            if rate.abs() > 1e-12 {
+                out.push(-slack / rate);
+            }
+        };
+        let (a, b, c) = match self.shape {
+            Shape::Block { .. } | Shape::Wedge { .. } => {
+                let (walls, n) = self.walls(p, w);
+                walls[..n].iter().for_each(|&(slack, rate)| flat(out, slack, rate));
+                return;
+            }
+            Shape::Cylinder { radius, height } => {
+                flat(out, q.z, e.z);
+                flat(out, height - q.z, -e.z);
+                let (a, b) = (e.x * e.x + e.y * e.y, q.x * e.x + q.y * e.y);
+                (a, b, q.x * q.x + q.y * q.y - radius * radius)
+            }
+            Shape::Cone { radius, height } => {
+                flat(out, q.z, e.z);
+                let (r, k) = (radius * (1.0 - q.z / height), -radius / height * e.z);
+                let (a, b) = (e.x * e.x + e.y * e.y - k * k, q.x * e.x + q.y * e.y - r * k);
+                (a, b, q.x * q.x + q.y * q.y - r * r)
+            }
+            Shape::Sphere { radius } => (1.0, q.dot(e), q.dot(q) - radius * radius),
+        };
+        quadratic(a, b, c, out);
+    }
+}
+
+/// Real roots of `a t² + 2 b t + c`.
+fn quadratic(a: f64, b: f64, c: f64, out: &mut Vec<f64>) {
+    let disc = b * b - a * c;
+    if disc < 0.0 {
+        return;
+    }
+    let s = -(b + disc.sqrt().copysign(b));
+    if a.abs() > 1e-12 {
+        out.push(s / a);
+    }
+    if s != 0.0 {
+        out.push(c / s);
+    }
+}

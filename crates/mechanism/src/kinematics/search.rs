@@ -1,0 +1,402 @@
+//! The pair two parts form by their shapes alone (Gelsey 1995, Algorithms 2 to 5).
+//!
+//! Algorithm 3 compares primitives; here the surfaces of the finished parts are compared. All places where the
+//! parts meet are taken together (which merges several bearings into one pair), and the motions they leave are
+//! read from the section across the common direction and from the faces that block motion along it.
+
+use super::bounds::Bounds;
+use super::fits::{ShaftFit, ShaftMiss, Solid, face_pairs, face_patches, shafts};
+use super::pair::{AxisLine, Evidence, EvidenceKind, Pair, PairKind};
+use super::patch::Scene;
+use super::plane_fit::PlanePatch;
+use super::section::{Section, Wall, section, wall};
+use super::surface::{across, canonical, foot, off_line, parallel, perpendicular};
+use mainspring_geometry::{CurveId, Vec2, Vec3};
+
+/// What the shapes of two parts say about each other.
+#[derive(Debug, Default)]
+pub(crate) struct Finding {
+    pub pair: Option<Found>,
+    /// Cylinders that fit nothing.
+    pub misses: Vec<ShaftMiss>,
+    /// The parts fit somewhere, but the fit leaves too much free, or is not centred.
+    pub loose: Option<Loose>,
+    /// A fit with a way out that was left to contact.
+    pub left_open: Option<[u32; 2]>,
+}
+
+#[derive(Debug)]
+pub(crate) struct Found {
+    pub pair: Pair,
+    /// The surfaces leave a way out: counts only for parts that have no closed pair.
+    pub open: bool,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Loose {
+    /// Shaft and hole meet over this angle only (radians).
+    Arc { primitives: [u32; 2], angle: f64 },
+    /// Opposite faces, but no section closed by them.
+    Faces { primitives: [u32; 2] },
+    /// Play on opposite sides differs.
+    OffCentre { primitives: [u32; 2], plays: (f64, f64) },
+}
+
+pub(crate) fn find(
+    scene: &Scene<'_>,
+    solids: [&Solid<'_>; 2],
+    parts: (usize, usize),
+    clearance: f64,
+) -> Finding {
+    let (fits, misses) = shafts(scene, solids, clearance);
+    let mut finding = Finding { misses, ..Finding::default() };
+    let found = match fits.first() {
+        Some(first) => {
+            let d = first.laterals[0].direction;
+            let patches = face_patches(scene, solids, clearance, |n| parallel(n, d) || perpendicular(n, d));
+            with_shaft(scene, &fits, patches)
+        }
+        None => faces_only(scene, solids, clearance),
+    };
+    match found {
+        Ok(Some(fit)) => finding.pair = Some(fit.into_pair(scene, solids, parts)),
+        Ok(None) => {}
+        Err(loose) => finding.loose = Some(loose),
+    }
+    finding
+}
+
+/// Play up to this part of the smaller part's size is looked through for near misses.
+const NEAR_PLAY: f64 = 0.05;
+/// Parts with more faces near each other are not looked through for near misses.
+const MAX_NEAR_FACES: usize = 400;
+
+/// Would the faces of two parts make a pair if some play were allowed? The primitives and the play.
+pub(crate) fn with_more_play(scene: &Scene<'_>, solids: [&Solid<'_>; 2]) -> Option<([u32; 2], f64)> {
+    let play = NEAR_PLAY * solids[0].bounds.diagonal().min(solids[1].bounds.diagonal());
+    if face_pairs(solids, play, |_| true).len() > MAX_NEAR_FACES {
+        return None;
+    }
+    let fit = faces_only(scene, solids, play).ok()??;
+    let gap = fit.patches.iter().map(|p| p.gap).fold(0.0, f64::max);
+    (gap > scene.tolerance && fit.exit.is_none()).then(|| (fit.patches[0].primitives(), gap))
+}
+
+/// The surfaces that make a pair, and what they leave.
+struct Fit {
+    fits: Vec<ShaftFit>,
+    patches: Vec<PlanePatch>,
+    kind: PairKind,
+    point: Vec3,
+    direction: Vec3,
+    exit: Option<Vec3>,
+}
+
+fn with_shaft(scene: &Scene<'_>, fits: &[ShaftFit], patches: Vec<PlanePatch>) -> Result<Option<Fit>, Loose> {
+    let d = fits[0].laterals[0].direction;
+    let origin = fits[0].laterals[0].middle;
+    let make = |kind, point, exit| {
+        let (fits, patches) = (fits.iter().map(ShaftFit::copy).collect(), patches.clone());
+        Ok(Some(Fit { fits, patches, kind, point, direction: d, exit }))
+    };
+    if fits.iter().any(|f| !parallel(f.laterals[0].direction, d)) {
+        return make(PairKind::Fixed, origin, None);
+    }
+    let view = View::new(origin, d, fits, &patches);
+    let slides = !blocked_both_ways(&patches, d);
+    off_centre(&patches, d, scene.tolerance)?;
+    match section(&view.walls(fits, &patches)) {
+        Section::Locked => make(PairKind::of_freedoms(false, slides), origin, None),
+        Section::LockedOpen { exit } => {
+            make(PairKind::of_freedoms(false, slides), origin, Some(view.lift(exit)))
+        }
+        Section::Turning { .. } => make(PairKind::of_freedoms(true, slides), origin, None),
+        Section::TurningOpen { exit, .. } => {
+            make(PairKind::of_freedoms(true, slides), origin, Some(view.lift(exit)))
+        }
+        Section::Free => {
+            let angle = fits[0].arcs.iter().map(|a| a.1 - a.0).sum();
+            Err(Loose::Arc { primitives: fits[0].primitives(), angle })
+        }
+    }
+}
+
+/// A pair made by plane faces: a block in a hole, however the hole was made.
+fn faces_only(scene: &Scene<'_>, solids: [&Solid<'_>; 2], clearance: f64) -> Result<Option<Fit>, Loose> {
+    let candidates = face_pairs(solids, clearance + scene.tolerance, |_| true);
+    let Some((first, _)) = candidates.first() else { return Ok(None) };
+    if candidates.iter().all(|(a, _)| parallel(a.normal, first.normal)) {
+        return Ok(None);
+    }
+    let patches = face_patches(scene, solids, clearance, |_| true);
+    let mut best: Option<(u32, Fit)> = None;
+    for d in directions(&patches) {
+        let origin = middle(scene, &patches, d);
+        let view = View::new(origin, d, &[], &patches);
+        let across_d: Vec<PlanePatch> =
+            patches.iter().filter(|p| perpendicular(p.normal, d)).cloned().collect();
+        let slides = !blocked_both_ways(&patches, d);
+        let (rank, exit) = match section(&view.walls(&[], &across_d)) {
+            Section::Locked if slides => (0, None),
+            Section::Locked => (1, None),
+            Section::LockedOpen { exit } if slides => (2, Some(view.lift(exit))),
+            Section::LockedOpen { exit } => (3, Some(view.lift(exit))),
+            _ => continue,
+        };
+        off_centre(&across_d, d, scene.tolerance)?;
+        if best.as_ref().is_none_or(|(r, _)| rank < *r) {
+            let kind = PairKind::of_freedoms(false, slides);
+            best = Some((
+                rank,
+                Fit { fits: vec![], patches: patches.clone(), kind, point: origin, direction: d, exit },
+            ));
+        }
+    }
+    match best {
+        Some((_, fit)) => Ok(Some(fit)),
+        None => opposite(&patches).map_or(Ok(None), |primitives| Err(Loose::Faces { primitives })),
+    }
+}
+
+/// Two patches facing opposite ways: the parts embrace, yet form no pair.
+fn opposite(patches: &[PlanePatch]) -> Option<[u32; 2]> {
+    let against = |a: &PlanePatch, b: &PlanePatch| a.normal.dot(b.normal) < -1.0 + 1e-9;
+    let i = (0..patches.len()).find(|&i| patches[..i].iter().any(|p| against(p, &patches[i])))?;
+    Some(patches[i].primitives())
+}
+
+/// Directions along which at least two faces that are not parallel run.
+fn directions(patches: &[PlanePatch]) -> Vec<Vec3> {
+    let mut normals: Vec<Vec3> = Vec::new();
+    for p in patches {
+        if normals.len() < 24 && !normals.iter().any(|n| parallel(*n, p.normal)) {
+            normals.push(p.normal);
+        }
+    }
+    let mut found: Vec<Vec3> = Vec::new();
+    for (i, a) in normals.iter().enumerate() {
+        for b in &normals[..i] {
+            let d = canonical(a.cross(*b).unit());
+            if !found.iter().any(|f| parallel(*f, d)) {
+                found.push(d);
+            }
+        }
+    }
+    found
+}
+
+/// A point of the axis of faces along `d`: the middle of the one block they belong to, else of the faces.
+fn middle(scene: &Scene<'_>, patches: &[PlanePatch], d: Vec3) -> Vec3 {
+    let used: Vec<&PlanePatch> = patches.iter().filter(|p| perpendicular(p.normal, d)).collect();
+    for part in 0..2 {
+        let Some(first) = used.first().map(|p| p.faces[part].id.primitive) else { continue };
+        if used.iter().all(|p| p.faces[part].id.primitive == first) {
+            let primitive = &scene.primitives[first as usize];
+            let (low, high) = super::bounds::local_box(&primitive.shape);
+            return primitive.machine_from_local.apply((low + high) * 0.5);
+        }
+    }
+    let (mut sum, mut count) = (Vec3::default(), 0.0);
+    for corner in used.iter().flat_map(|p| &p.corners) {
+        sum = sum + *corner;
+        count += 1.0;
+    }
+    sum * (1.0 / f64::max(count, 1.0))
+}
+
+fn blocked_both_ways(patches: &[PlanePatch], d: Vec3) -> bool {
+    let blocks = |sign: f64| patches.iter().any(|p| parallel(p.normal, d) && p.normal.dot(d) * sign > 0.0);
+    blocks(1.0) && blocks(-1.0)
+}
+
+/// Faces on opposite sides must have the same play, or the fit has no centre to keep.
+fn off_centre(patches: &[PlanePatch], d: Vec3, tolerance: f64) -> Result<(), Loose> {
+    for (i, a) in patches.iter().enumerate() {
+        for b in &patches[..i] {
+            let opposed = perpendicular(a.normal, d) && a.normal.dot(b.normal) < -1.0 + 1e-9;
+            if opposed && (a.gap - b.gap).abs() > 4.0 * tolerance {
+                return Err(Loose::OffCentre { primitives: a.primitives(), plays: (b.gap, a.gap) });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The section across a direction, in units of the fit's size.
+struct View {
+    origin: Vec3,
+    axes: (Vec3, Vec3),
+    d: Vec3,
+    size: f64,
+}
+
+impl View {
+    fn new(origin: Vec3, d: Vec3, fits: &[ShaftFit], patches: &[PlanePatch]) -> Self {
+        let mut size: f64 = 0.0;
+        for p in patches.iter().flat_map(|p| &p.corners) {
+            size = size.max((*p - origin).cross(d).norm());
+        }
+        for lateral in fits.iter().flat_map(|f| &f.laterals) {
+            size = size.max((lateral.middle - origin).cross(d).norm() + lateral.radius);
+        }
+        View { origin, axes: across(d), d, size: size.max(f64::MIN_POSITIVE) }
+    }
+
+    fn flat(&self, v: Vec3) -> Vec2 {
+        Vec2::new(v.dot(self.axes.0), v.dot(self.axes.1))
+    }
+
+    fn lift(&self, v: Vec2) -> Vec3 {
+        canonical_noise(self.axes.0 * v.x + self.axes.1 * v.y)
+    }
+
+    fn walls(&self, fits: &[ShaftFit], patches: &[PlanePatch]) -> Vec<Wall> {
+        let mut walls = Vec::new();
+        let place = |p: Vec3| self.flat(p - self.origin) * (1.0 / self.size);
+        for fit in fits {
+            let lateral = &fit.laterals[0];
+            let (u, v) = across(lateral.direction);
+            for angle in fit.arcs.iter().flat_map(|arc| spread(*arc)) {
+                let (sin, cos) = angle.sin_cos();
+                let out = u * cos + v * sin;
+                let normal = if fit.solid == 0 { out } else { -out };
+                walls.push(wall(place(lateral.middle + out * lateral.radius), self.flat(normal)));
+            }
+        }
+        for patch in patches.iter().filter(|p| perpendicular(p.normal, self.d)) {
+            let side = patch.normal.cross(self.d);
+            let reach = |a: &&Vec3, b: &&Vec3| a.dot(side).total_cmp(&b.dot(side));
+            let ends = [patch.corners.iter().min_by(reach), patch.corners.iter().max_by(reach)];
+            walls.extend(ends.into_iter().flatten().map(|p| wall(place(*p), self.flat(patch.normal))));
+        }
+        walls
+    }
+}
+
+fn canonical_noise(v: Vec3) -> Vec3 {
+    let clean = |c: f64| if c.abs() < 1e-12 { 0.0 } else { c };
+    Vec3::new(clean(v.x), clean(v.y), clean(v.z))
+}
+
+/// Angles over an arc, ends included, at most a quarter turn apart.
+fn spread((from, to): (f64, f64)) -> impl Iterator<Item = f64> {
+    let steps = ((to - from) / std::f64::consts::FRAC_PI_2).ceil().max(1.0) as usize;
+    (0..=steps).map(move |k| from + (to - from) * k as f64 / steps as f64)
+}
+
+impl ShaftFit {
+    pub(crate) fn primitives(&self) -> [u32; 2] {
+        self.laterals.map(|l| l.id.primitive)
+    }
+
+    fn same_place(&self, other: &Self) -> bool {
+        let near =
+            |a: f64, b: f64| (a - b).abs() <= 1e-9 * self.laterals[0].height.max(self.laterals[0].radius);
+        let shift = (other.laterals[0].middle - self.laterals[0].middle).dot(self.laterals[0].direction);
+        let on_axis = off_line(other.laterals[0].middle, self.laterals[0].middle, self.laterals[0].direction);
+        near(on_axis, 0.0)
+            && near(self.laterals[self.solid].radius, other.laterals[other.solid].radius)
+            && near(self.span.0, other.span.0 + shift)
+            && near(self.span.1, other.span.1 + shift)
+    }
+
+    fn copy(&self) -> Self {
+        ShaftFit { arcs: self.arcs.clone(), ..*self }
+    }
+}
+
+impl PlanePatch {
+    fn same_place(&self, other: &Self) -> bool {
+        let size = self.area.sqrt();
+        let around = |p: &Self| Bounds::of_points(p.corners.iter().copied());
+        let (a, b) = (around(self), around(other));
+        self.normal.dot(other.normal) > 0.5
+            && (a.low - b.low).norm() <= 1e-9 * size
+            && (a.high - b.high).norm() <= 1e-9 * size
+            && (self.area - other.area).abs() <= 1e-9 * self.area
+    }
+
+    fn primitives(&self) -> [u32; 2] {
+        self.faces.map(|f| f.id.primitive)
+    }
+}
+
+impl Fit {
+    fn into_pair(self, scene: &Scene<'_>, solids: [&Solid<'_>; 2], parts: (usize, usize)) -> Found {
+        let d = self.direction;
+        let axis = AxisLine { point: foot(self.point, d, scene.tolerance), direction: d };
+        let surfaces = [0, 1].map(|i| self.surfaces(i, solids[i], scene.tolerance));
+        let gaps = self.patches.iter().filter(|p| perpendicular(p.normal, d)).map(|p| p.gap);
+        let clearance = self.fits.iter().map(|f| f.clearance).chain(gaps).fold(0.0, f64::max);
+        let clearance = if clearance <= scene.tolerance { 0.0 } else { clearance };
+        let pair = Pair {
+            kind: self.kind,
+            shape_kind: self.kind,
+            parts,
+            axis,
+            ratio: None,
+            clearance,
+            evidence: self.evidence(&axis),
+            dropped: vec![],
+            surfaces,
+        };
+        Found { pair, open: self.exit.is_some() }
+    }
+
+    /// Of coincident surfaces the first in the text speaks for all.
+    fn evidence(&self, axis: &AxisLine) -> Vec<Evidence> {
+        let mut list = Vec::new();
+        let note = |what, primitives| Evidence { what, primitives, text: String::new() };
+        for (k, fit) in self.fits.iter().enumerate() {
+            if self.fits[..k].iter().any(|f| f.same_place(fit)) {
+                continue;
+            }
+            let start = (fit.laterals[0].middle - axis.point).dot(axis.direction);
+            let angle = fit.arcs.iter().map(|a| a.1 - a.0).sum();
+            let radius = fit.laterals[fit.solid].radius;
+            let (from, to) = (start + fit.span.0, start + fit.span.1);
+            let (solid, clearance) = (fit.solid, fit.clearance);
+            let what = EvidenceKind::ShaftInHole { solid, radius, clearance, from, to, angle };
+            list.push(note(what, fit.primitives()));
+        }
+        for (k, p) in self.patches.iter().enumerate() {
+            if self.patches[..k].iter().any(|q| q.same_place(p)) {
+                continue;
+            }
+            let what = if perpendicular(p.normal, axis.direction) {
+                EvidenceKind::SideFaces { normal: p.normal, clearance: p.gap, area: p.area }
+            } else if parallel(p.normal, axis.direction) {
+                EvidenceKind::EndFaces { normal: p.normal, area: p.area }
+            } else {
+                continue;
+            };
+            list.push(note(what, p.primitives()));
+        }
+        if let Some(exit) = self.exit {
+            let primitives = list.first().map_or([0, 0], |e| e.primitives);
+            list.push(note(EvidenceKind::OpenSide { exit }, primitives));
+        }
+        list
+    }
+
+    /// Every surface of the part that coincides with one of the pair: it moves in itself with the pair.
+    fn surfaces(&self, i: usize, solid: &Solid<'_>, tolerance: f64) -> Vec<CurveId> {
+        let on_shaft = |l: &&super::surface::Lateral| {
+            self.fits.iter().map(|f| &f.laterals[i]).any(|f| {
+                (f.radius - l.radius).abs() <= tolerance
+                    && parallel(f.direction, l.direction)
+                    && super::surface::off_line(l.middle, f.middle, f.direction) <= tolerance
+            })
+        };
+        let on_face = |g: &&super::surface::Face| {
+            self.patches.iter().map(|p| &p.faces[i]).any(|f| {
+                parallel(f.normal, g.normal) && (f.middle - g.middle).dot(f.normal).abs() <= tolerance
+            })
+        };
+        let shafts = solid.laterals.iter().filter(on_shaft).map(|l| l.id);
+        let faces = solid.faces.iter().filter(on_face).map(|f| f.id);
+        let mut all: Vec<CurveId> = shafts.chain(faces).collect();
+        all.sort();
+        all
+    }
+}

@@ -1,0 +1,112 @@
+//! Parts must not overlap at the start; they may touch, and meshing gear envelopes may overlap.
+
+use super::bounds::Bounds;
+use super::region::Region;
+use mainspring_geometry::{Csg, CsgOp, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap};
+
+/// A point inside two parts at once, in machine coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Clash {
+    pub point: Vec3,
+}
+
+/// The parts as they stand at the start.
+pub(crate) struct Start<'a> {
+    pub primitives: &'a [Primitive],
+    pub boxes: &'a [Bounds],
+    pub plane_from_machine: Rigid3,
+    pub tolerance: f64,
+}
+
+/// A mesh, by the primitives that are its envelopes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Envelopes {
+    External([u32; 2]),
+    Internal { pinion: u32 },
+}
+
+impl Start<'_> {
+    /// Where parts `a` and `b` overlap, their meshes left out.
+    pub(crate) fn clash(
+        &self,
+        a: &Csg,
+        b: &Csg,
+        bounds: [&Bounds; 2],
+        meshes: &[Envelopes],
+    ) -> Option<Clash> {
+        if !bounds[0].touches(bounds[1]) {
+            return None;
+        }
+        let a = without_meshes(a, meshes);
+        let (primitives, plane) = (self.primitives, &self.plane_from_machine);
+        match overlap(Part { primitives, csg: &a }, Part { primitives, csg: b }, plane) {
+            Ok(found) => found.map(|o| Clash { point: self.lift(o.point, o.height) }),
+            Err(OutlineError::Malformed { .. }) => None,
+            Err(_) => self.scan([&a, b], bounds),
+        }
+    }
+
+    fn lift(&self, p: Vec2, height: f64) -> Vec3 {
+        self.plane_from_machine.inverse().apply(Vec3::new(p.x, p.y, height))
+    }
+
+    /// Looks along lines through the common box in its three directions; every piece of a line between walls is
+    /// judged at its middle. Overlaps narrower than the spacing of the lines can be missed.
+    fn scan(&self, csgs: [&Csg; 2], bounds: [&Bounds; 2]) -> Option<Clash> {
+        let [a, b] = bounds;
+        let low = Vec3::new(a.low.x.max(b.low.x), a.low.y.max(b.low.y), a.low.z.max(b.low.z));
+        let high = Vec3::new(a.high.x.min(b.high.x), a.high.y.min(b.high.y), a.high.z.min(b.high.z));
+        let zone = Bounds { low, high };
+        let regions = csgs.map(|csg| Region::new(self.primitives, csg, self.boxes, &zone, self.tolerance));
+        let work: usize = csgs.iter().map(|c| c.ops.len()).sum::<usize>()
+            * regions.iter().map(|r| r.members.len()).sum::<usize>();
+        let lines = LINES.min((MAX_WORK / work.max(1)).isqrt()).max(3);
+        let size = high - low;
+        let axes = [Vec3::new(size.x, 0., 0.), Vec3::new(0., size.y, 0.), Vec3::new(0., 0., size.z)];
+        (0..3).find_map(|k| {
+            let (w, u, v) = (axes[k], axes[(k + 1) % 3], axes[(k + 2) % 3]);
+            (0..lines * lines).find_map(|i| {
+                let spot = |i: usize, shift: f64| (i as f64 + shift) / lines as f64;
+                let from = low + u * spot(i / lines, 0.4719) + v * spot(i % lines, 0.5283);
+                along(&regions, from, w, self.tolerance)
+            })
+        })
+    }
+}
+
+/// Lines laid across the common box in each of two directions.
+const LINES: usize = 40;
+/// Bound on lines squared times set operations times primitives.
+const MAX_WORK: usize = 20_000_000;
+
+fn along(regions: &[Region; 2], from: Vec3, w: Vec3, tolerance: f64) -> Option<Clash> {
+    let length = w.norm();
+    if length <= tolerance {
+        return None;
+    }
+    let d = w * (1.0 / length);
+    let mut cuts = vec![0.0, length];
+    regions.iter().for_each(|r| r.crossings(from, d, &mut cuts));
+    cuts.retain(|t| (0.0..=length).contains(t));
+    cuts.sort_by(f64::total_cmp);
+    let mut stack = Vec::new();
+    cuts.windows(2).find_map(|c| {
+        let point = from + d * (0.5 * (c[0] + c[1]));
+        let thick = c[1] - c[0] > 1e3 * tolerance;
+        (thick && regions.iter().all(|r| r.inside(point, d, &mut stack))).then_some(Clash { point })
+    })
+}
+
+/// The part less the region of each mesh: what both envelopes share, or for an internal mesh all of the pinion
+/// (its envelope reaches into the ring's material).
+fn without_meshes(part: &Csg, meshes: &[Envelopes]) -> Csg {
+    let mut ops = part.ops.clone();
+    for mesh in meshes {
+        match *mesh {
+            Envelopes::External([a, b]) => ops.extend([CsgOp::Leaf(a), CsgOp::Leaf(b), CsgOp::Intersection]),
+            Envelopes::Internal { pinion } => ops.push(CsgOp::Leaf(pinion)),
+        }
+        ops.push(CsgOp::Difference);
+    }
+    Csg { ops }
+}
