@@ -5,9 +5,9 @@ import os
 import signal
 
 import pytest
-from conftest import ESCAPEMENT
 
 import mainspring.simulation
+from conftest import ESCAPEMENT
 from mainspring.cli import main
 from mainspring.cli.progress import watch
 
