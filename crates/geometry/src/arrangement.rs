@@ -16,20 +16,28 @@ use std::f64::consts::{PI, TAU};
 pub(crate) struct Budget {
     /// Pairs of neighbouring curves still allowed.
     pub pairs: usize,
+    /// Common points of curves still allowed.
+    pub points: usize,
     /// Point-in-primitive tests still allowed.
     pub probes: usize,
 }
 
 impl Budget {
-    pub const PAIRS: usize = 4_000_000;
+    const PAIRS: usize = 4_000_000;
+    const POINTS: usize = 1_000_000;
     const PROBES: usize = 100_000_000;
 
     pub fn new() -> Self {
-        Self { pairs: Self::PAIRS, probes: Self::PROBES }
+        Self { pairs: Self::PAIRS, points: Self::POINTS, probes: Self::PROBES }
     }
 
     pub fn spend_pairs(&mut self, n: usize) -> Result<(), OutlineError> {
         self.pairs = self.pairs.checked_sub(n).ok_or(OutlineError::TooComplex)?;
+        Ok(())
+    }
+
+    pub fn spend_points(&mut self, n: usize) -> Result<(), OutlineError> {
+        self.points = self.points.checked_sub(n).ok_or(OutlineError::TooComplex)?;
         Ok(())
     }
 
@@ -223,7 +231,9 @@ fn crossings(
         }
         near.retain(|&j| j > i && runs[j as usize].class != run.class);
         near.sort_unstable();
+        let before = found.len();
         near.iter().for_each(|&j| run.cross(&runs[j as usize], classes, tolerance, &mut found));
+        budget.spend_points(found.len() - before)?;
     }
     Ok(found)
 }

@@ -57,7 +57,8 @@ pub struct OutlineRecipe {
 pub enum OutlineError {
     /// A primitive that matters is no prism along the plane's normal.
     NotPrismatic { primitive: u32, shape: &'static str },
-    /// More than about four million pairs of curves come near each other.
+    /// Curves cross each other at more than a million points, or more than four million pairs come near
+    /// each other, counted over all layers.
     TooComplex,
     /// The set expression is not well formed, or a primitive is missing or not made of finite numbers.
     Malformed { primitive: Option<u32> },

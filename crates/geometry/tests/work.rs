@@ -109,3 +109,15 @@ fn too_many_levels_are_refused() {
     });
     assert_eq!(find(&union(steps)), Err(OutlineError::TooComplex));
 }
+
+/// A lattice with forty thousand windows.
+#[test]
+fn a_lattice() {
+    let n = 200;
+    let bar = |i: usize| block(2_000.0, 1.0, 0.0, 2.0 * i as f64 + 0.5);
+    let post = |i: usize| block(1.0, 2_000.0, 2.0 * i as f64 + 0.5, 0.0);
+    let recipe = find(&union((0..n).map(bar).chain((0..n).map(post)))).expect("planar");
+    assert_eq!(recipe.layers[0].loops.len(), 1 + (n - 1) * (n - 1));
+    let n = 600;
+    assert_eq!(find(&union((0..n).map(bar).chain((0..n).map(post)))), Err(OutlineError::TooComplex));
+}
