@@ -33,6 +33,10 @@ SOURCES: dict[str, tuple[tuple[str, str], ...]] = {
             "In: Nonsmooth Mechanics and Applications, CISM 302, 1-82. Springer, Vienna.",
             "impacts as projections",
         ),
+        (
+            "Lawson, C. L., Hanson, R. J. (1974). Solving Least Squares Problems. Prentice-Hall, ch. 23.",
+            "the small convex problems of contact",
+        ),
     ),
     "predict": ((GELSEY, "patterns of motion (Algorithm 12, corrected)"),),
 }
