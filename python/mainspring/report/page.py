@@ -56,7 +56,7 @@ def _controls(shown: Film) -> str:
         '<button id="play" aria-label="play" title="play or pause (Space)">▶</button>'
         '<button id="forth" aria-label="one step forth" title="step forth (→)">›</button>'
         f'<input id="scrub" type="range" min="0" max="{end:.6g}" step="any" value="0" aria-label="time">'
-        '<output id="clock">0.00 s</output>'
+        '<output id="clock" aria-live="off">0.00 s</output>'
         '<label>speed <select id="speed"></select></label>'
         f"{loop}</div>"
     )

@@ -82,7 +82,7 @@ def _framed(kind: str, data: str, ticks: str, told: str, drawn: str, label: str)
     return (
         f'<div class="panel {kind}"{data}><div class="ticks" aria-hidden="true">{ticks}</div>'
         f'<div class="area">{svg}<span class="label">{label}</span></div>'
-        '<output class="value"></output></div>'
+        '<output class="value" aria-live="off"></output></div>'
     )
 
 

@@ -1,0 +1,46 @@
+"""The film of a run: degenerate lengths, and samples where something happens."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from mainspring.report import page
+from mainspring.report.plots import line
+from mainspring.report.sampling import film
+from mainspring.report.ticks import Axis
+
+
+def test_a_run_that_never_moves_has_a_page(mechanism, simulation):
+    class Still:
+        parts = simulation.trajectory.parts
+
+        def at(self, t):
+            return simulation.trajectory.at(np.zeros_like(t))
+
+        def contacts(self, _t):
+            return []
+
+    still = dataclasses.replace(
+        simulation, t=0.0, events=(), kinetic_energy_minima=(), status="at_rest", trajectory=Still()
+    )
+    text = page(mechanism, still)
+    assert "at rest" in text
+    assert "NaN" not in text
+
+
+def test_events_and_minima_are_sampled_exactly(mechanism, simulation):
+    import mainspring as ms
+
+    shown = film(ms.find_pairs(mechanism), simulation)
+    moments = set(shown.t.tolist())
+    assert {e.t for e in simulation.events} <= moments
+    assert set(simulation.kinetic_energy_minima) <= moments
+    assert shown.kinetic.max() == pytest.approx(simulation.energy.kinetic_max, rel=0.02)
+
+
+def test_a_line_keeps_its_corners():
+    t = np.linspace(0, 1, 101)
+    values = np.where(t < 0.5, 0.0, 1.0)
+    drawn = line(t, values, Axis(0, 1, ()), Axis(0, 1, ()), 100, 10)
+    assert drawn == "M0 10L49 10L50 0L100 0"
