@@ -26,6 +26,15 @@ ALLOWED: dict[str, set[str]] = {
         "mainspring-behavior",
     },
     "mainspring-python": {"mainspring"},
+    # The fuzzer stands at the end of the path and may see all of it.
+    "mainspring-fuzz": {
+        "mainspring-geometry",
+        "mainspring-model",
+        "mainspring-mechanism",
+        "mainspring-dynamics",
+        "mainspring-behavior",
+        "mainspring",
+    },
 }
 
 

@@ -1,0 +1,17 @@
+//! A deterministic fuzzer for what users hand in: input i of a seed is always the same bytes.
+//!
+//! Inputs are mutated examples, random programs of the language, token soup and random bytes ([`input`]). Each is
+//! given to every [`Target`]; a panic, an error that breaks the rules for messages, a broken promise of the model,
+//! or more than a second is a failure ([`run`]).
+
+mod input;
+mod program;
+mod random;
+mod run;
+mod soup;
+mod target;
+
+pub use input::{Input, input};
+pub use random::Random;
+pub use run::{Failure, Options, Summary, run};
+pub use target::{TARGETS, Target};

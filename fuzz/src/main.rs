@@ -1,0 +1,67 @@
+//! `cargo run --release -p mainspring-fuzz -- --inputs 1000000 --seed 1`
+//!
+//! With `--show N` input N is printed instead. Ends with 1 if anything failed.
+
+use mainspring_fuzz::{Options, Summary, input, run};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match parse(&arguments) {
+        Err(message) => {
+            eprintln!("{message}; expected [--inputs N] [--seed N] [--from N] [--threads N] [--show N]");
+            ExitCode::from(2)
+        }
+        Ok((options, Some(index))) => {
+            let input = input(options.seed, index);
+            println!("{}", String::from_utf8_lossy(&input.model));
+            println!("---- supplement\n{}", String::from_utf8_lossy(&input.supplement.unwrap_or_default()));
+            ExitCode::SUCCESS
+        }
+        Ok((options, None)) => report(&run(options), options.seed),
+    }
+}
+
+fn parse(arguments: &[String]) -> Result<(Options, Option<u64>), String> {
+    let mut options = Options { seed: 1, from: 0, inputs: 20_000, threads: 2 };
+    let mut show = None;
+    for pair in arguments.chunks(2) {
+        let [name, value] = pair else { return Err(format!("{} without a value", pair[0])) };
+        let number: u64 = value.parse().map_err(|_| format!("{value} is not a number"))?;
+        match name.as_str() {
+            "--inputs" => options.inputs = number,
+            "--seed" => options.seed = number,
+            "--from" => options.from = number,
+            "--threads" => options.threads = number,
+            "--show" => show = Some(number),
+            _ => return Err(format!("no option {name}")),
+        }
+    }
+    Ok((options, show))
+}
+
+/// Greatest memory that a run may have used, in KiB: 1 GiB.
+const MEMORY: u64 = 1024 * 1024;
+
+fn report(summary: &Summary, seed: u64) -> ExitCode {
+    for failure in &summary.failures {
+        println!("input {} of seed {seed}: {}", failure.index, failure.what);
+    }
+    let memory = peak_memory();
+    let used = memory.map_or("unknown memory".to_string(), |kib| format!("at most {} MiB", kib / 1024));
+    let Summary { inputs, accepted, slowest, failures } = summary;
+    println!(
+        "{inputs} inputs, {accepted} accepted, {} failures, slowest {} ms, {used}",
+        failures.len(),
+        slowest.as_millis()
+    );
+    let fits = memory.is_none_or(|kib| kib < MEMORY);
+    if failures.is_empty() && fits { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// Peak resident memory in KiB, where the system tells it.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse().ok()
+}

@@ -1,0 +1,19 @@
+//! A short run of the fuzzer.
+
+use mainspring_fuzz::{Options, input, run};
+
+#[test]
+fn twenty_thousand_inputs() {
+    let summary = run(Options { seed: 20_26, from: 0, inputs: 20_000, threads: 2 });
+    let shown: Vec<String> = summary.failures.iter().map(|f| format!("{}: {}", f.index, f.what)).collect();
+    assert!(shown.is_empty(), "{shown:#?}");
+    // A fuzzer whose inputs are all refused at once, or all accepted, tries nothing.
+    assert!((3_000..17_000).contains(&summary.accepted), "{} accepted", summary.accepted);
+}
+
+#[test]
+fn inputs_do_not_change() {
+    assert_eq!(input(1, 7), input(1, 7));
+    assert_ne!(input(1, 7), input(1, 8));
+    assert_ne!(input(1, 7), input(2, 7));
+}
