@@ -61,9 +61,9 @@ impl Component {
     }
 
     /// Evaluates the component's contacts at `q`.
-    pub fn touches(&self, world: &mut World, q: &[f64]) -> Vec<Touch> {
-        let placed: Vec<Placed> =
-            self.bodies.iter().map(|&b| Placed::new(&world.system.bodies[b], q)).collect();
+    pub fn touches<'a>(&self, world: &mut World<'a>, q: &[f64]) -> Vec<Touch<'a>> {
+        let system = world.system;
+        let placed: Vec<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
         self.contacts
             .iter()
             .zip(&self.sides)

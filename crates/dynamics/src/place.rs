@@ -9,14 +9,14 @@ use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, ContactId, Feature, FeatureShape, GapKind, Row};
 
 /// Of touching contacts, those that stand for their place. `kept` were closed before and are preferred among equals.
-pub fn representatives(
-    world: &mut World,
+pub fn representatives<'a>(
+    world: &mut World<'a>,
     q: &[f64],
     v: &[f64],
-    near: &[Touch],
+    near: &[Touch<'a>],
     kept: &[ContactId],
     tolerance: &dyn Fn(&Row) -> f64,
-) -> Vec<Touch> {
+) -> Vec<Touch<'a>> {
     let mut chosen = Vec::new();
     for touch in near {
         if is_eligible(world, touch, q, v) && stands(world, touch, q, v, kept, tolerance) {

@@ -174,8 +174,12 @@ struct March<'s, 'p> {
 type Real<'r> = &'r mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool;
 
 impl March<'_, '_> {
-    fn touch(&self, world: &mut World, c: &Candidate, at: (&mut [f64], &mut [f64])) -> (Touch, f64) {
-        self.stretch.state(self.t, at.0, at.1);
+    fn touch<'a>(&self, world: &mut World<'a>, c: &Candidate, at: (&mut [f64], &mut [f64])) -> (Touch<'a>, f64) {
+        // Only the coordinates that move these two bodies matter.
+        for arm in &world.arms[c.id.interaction as usize] {
+            let State { q, v } = self.stretch.paths[arm.coordinate].at(self.t);
+            (at.0[arm.coordinate], at.1[arm.coordinate]) = (q, v);
+        }
         let touch = world.touch(c, at.0);
         (touch, touch.rate(at.1))
     }
@@ -227,6 +231,13 @@ impl March<'_, '_> {
     fn wait_for_gap(&mut self, world: &mut World, c: &Candidate, at: (&mut [f64], &mut [f64])) -> bool {
         let (start, open) = (self.t, 8.0 * CLOSED * world.system.size);
         let (q, v) = at;
+        // Behind an edge's line but past its end is free as well.
+        let size = world.system.size;
+        let is_free = |touch: &Touch| touch.state.gap > 0.0 || touch.margin(size) <= 0.0;
+        let (touch, _) = self.touch(world, c, (&mut *q, &mut *v));
+        if touch.state.gap.abs() > open && is_free(&touch) {
+            return true;
+        }
         // Samples from the end backwards: in the usual case all are open and the first interval is short.
         let mut first_open = None;
         let mut dt = self.end - start;
@@ -236,9 +247,7 @@ impl March<'_, '_> {
             if touch.state.gap.abs() <= open {
                 break;
             }
-            // Behind an edge's line but past its end is free as well.
-            let free = touch.state.gap > 0.0 || touch.margin(world.system.size) <= 0.0;
-            first_open = free.then_some(self.t);
+            first_open = is_free(&touch).then_some(self.t);
             dt *= 0.25;
         }
         match first_open {

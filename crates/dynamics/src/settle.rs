@@ -76,7 +76,7 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
 }
 
 /// Every contact closed to `TOGETHER` at `q`, wherever along its features.
-fn near_touches(world: &mut World, q: &[f64]) -> Vec<Touch> {
+fn near_touches<'a>(world: &mut World<'a>, q: &[f64]) -> Vec<Touch<'a>> {
     let within = TOGETHER * world.system.size;
     let mut found = Vec::new();
     for interaction in 0..world.arms.len() {
@@ -94,7 +94,7 @@ fn near_touches(world: &mut World, q: &[f64]) -> Vec<Touch> {
     found
 }
 
-fn choose(world: &mut World, instant: &Instant, near: &[Touch], v: &[f64]) -> Vec<Touch> {
+fn choose<'a>(world: &mut World<'a>, instant: &Instant, near: &[Touch<'a>], v: &[f64]) -> Vec<Touch<'a>> {
     let kept: Vec<ContactId> = instant.closed.iter().map(|c| c.candidate.id).collect();
     let tolerances = |row: &Row| rate_tolerance(row, instant.speeds);
     let mut chosen = representatives(world, instant.q, v, near, &kept, &tolerances);

@@ -263,7 +263,7 @@ impl<'a> Simulation<'a> {
         let listed: Vec<ContactId> = std::mem::take(&mut self.released);
         for id in listed {
             let candidate = find_candidate(&self.world, id);
-            let opened = candidate.is_none_or(|c| self.world.touch(&c, &self.q).state.gap > open);
+            let opened = candidate.is_none_or(|c| self.world.touch(&c, &self.q).state.gap.abs() > open);
             if !opened {
                 self.released.push(id);
             }

@@ -42,13 +42,13 @@ pub struct World<'a> {
 
 /// A contact evaluated at a configuration.
 #[derive(Clone, Copy, Debug)]
-pub struct Touch {
+pub struct Touch<'a> {
     pub candidate: Candidate,
     pub state: GapState,
-    placed: (Placed, Placed),
+    placed: (Placed<'a>, Placed<'a>),
 }
 
-impl Touch {
+impl Touch<'_> {
     /// ∂g/∂q.
     pub fn row(&self) -> Row {
         self.state.row(&self.placed.0, &self.placed.1)
@@ -90,14 +90,15 @@ impl<'a> World<'a> {
     }
 
     /// Evaluates a contact at positions `q`.
-    pub fn touch(&mut self, c: &Candidate, q: &[f64]) -> Touch {
+    pub fn touch(&mut self, c: &Candidate, q: &[f64]) -> Touch<'a> {
         let (a, b) = self.bodies(c);
-        let placed = (Placed::new(&self.system.bodies[a], q), Placed::new(&self.system.bodies[b], q));
+        let bodies = &self.system.bodies;
+        let placed = (Placed::new(&bodies[a], q), Placed::new(&bodies[b], q));
         self.touch_placed(c, placed)
     }
 
     /// Evaluates a contact between bodies already placed.
-    pub fn touch_placed(&mut self, c: &Candidate, placed: (Placed, Placed)) -> Touch {
+    pub fn touch_placed(&mut self, c: &Candidate, placed: (Placed<'a>, Placed<'a>)) -> Touch<'a> {
         self.evaluations += 1;
         let (fa, fb) = self.features(c);
         let state = gap_state(c.kind, fa, fb, &placed.0.pose, &placed.1.pose);
@@ -120,7 +121,8 @@ impl<'a> World<'a> {
     pub fn refresh(&mut self, interaction: usize, q: &[f64], within: f64) -> (f64, f64) {
         let travelled = self.travelled(interaction, q);
         let room = self.near[interaction].bound - within - travelled;
-        if room > 0.0 {
+        // A list about to run out is made again: stretches between lists must not become ever shorter.
+        if room > 0.01 * self.system.size {
             return (travelled, room);
         }
         let bodies = self.system.interactions[interaction].bodies;

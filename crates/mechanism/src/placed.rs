@@ -3,7 +3,7 @@
 //! For a point p fixed on the body and joints j along its chain, `∂p/∂q_j = r_j (p − o_j)^⊥` for a turn about o_j
 //! and `r_j d_j` for a slide along d_j, where o_j and d_j are carried by the joints before j.
 
-use crate::system::{Body, Motion, Pose};
+use crate::system::{Body, Joint, Motion, Pose};
 use mainspring_geometry::Vec2;
 
 /// Most joints between a body and the frame.
@@ -42,20 +42,13 @@ impl Row {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-struct PlacedJoint {
-    coordinate: usize,
-    ratio: f64,
-    turns: bool,
-    /// The centre of a turn or the direction of a slide, in the machine.
-    at: Vec2,
-}
-
 /// A body at given joint positions.
 #[derive(Clone, Copy, Debug)]
-pub struct Placed {
+pub struct Placed<'b> {
     pub pose: Pose,
-    joints: [Option<PlacedJoint>; MAX_CHAIN],
+    chain: &'b [Joint],
+    /// For each joint the centre of a turn or the direction of a slide, in the machine.
+    at: [Vec2; MAX_CHAIN],
 }
 
 /// Velocity of a point, and the part of its acceleration that joint accelerations do not cause.
@@ -65,44 +58,43 @@ pub struct PointMotion {
     pub bias: Vec2,
 }
 
-impl Placed {
-    pub fn new(body: &Body, q: &[f64]) -> Self {
-        let mut placed = Self { pose: Pose::identity(), joints: [None; MAX_CHAIN] };
-        for (slot, joint) in placed.joints.iter_mut().zip(&body.chain) {
-            let at = match joint.motion {
+impl<'b> Placed<'b> {
+    /// Joints beyond `MAX_CHAIN` are not looked at; `System::new` allows none.
+    pub fn new(body: &'b Body, q: &[f64]) -> Self {
+        let mut placed = Self { pose: Pose::identity(), chain: &body.chain, at: [Vec2::default(); MAX_CHAIN] };
+        for (at, joint) in placed.at.iter_mut().zip(&body.chain) {
+            *at = match joint.motion {
                 Motion::Turn { center } => placed.pose.apply(center),
                 Motion::Slide { direction } => placed.pose.rotate(direction),
             };
-            let turns = matches!(joint.motion, Motion::Turn { .. });
-            *slot = Some(PlacedJoint { coordinate: joint.coordinate, ratio: joint.ratio, turns, at });
             let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
             placed.pose = placed.pose.then_after(&step);
         }
         placed
     }
 
-    fn joints(&self) -> impl Iterator<Item = &PlacedJoint> {
-        self.joints.iter().map_while(Option::as_ref)
+    fn joints(&self) -> impl Iterator<Item = (&Joint, Vec2, bool)> {
+        self.chain.iter().zip(self.at).map(|(j, at)| (j, at, matches!(j.motion, Motion::Turn { .. })))
     }
 
     /// Adds `sign · n · ∂p/∂q` to a row, for the body's point now at `p`.
     pub fn add_to_row(&self, row: &mut Row, n: Vec2, p: Vec2, sign: f64) {
-        for j in self.joints() {
-            let along = if j.turns { n.dot((p - j.at).perp()) } else { n.dot(j.at) };
+        for (j, at, turns) in self.joints() {
+            let along = if turns { n.dot((p - at).perp()) } else { n.dot(at) };
             row.add(j.coordinate, sign * j.ratio * along);
         }
     }
 
     /// Rate of turning of the body, radians per unit of time.
     pub fn turning(&self, v: &[f64]) -> f64 {
-        self.joints().filter(|j| j.turns).map(|j| j.ratio * v[j.coordinate]).sum()
+        self.joints().filter(|j| j.2).map(|(j, ..)| j.ratio * v[j.coordinate]).sum()
     }
 
     /// Velocity of the body's point now at `p`.
     pub fn velocity(&self, p: Vec2, v: &[f64]) -> Vec2 {
-        self.joints().fold(Vec2::default(), |sum, j| {
+        self.joints().fold(Vec2::default(), |sum, (j, at, turns)| {
             let rate = j.ratio * v[j.coordinate];
-            sum + if j.turns { (p - j.at).perp() } else { j.at } * rate
+            sum + if turns { (p - at).perp() } else { at } * rate
         })
     }
 
@@ -111,15 +103,15 @@ impl Placed {
         let velocity = self.velocity(p, v);
         let mut bias = Vec2::default();
         let mut carried = Carrier::default();
-        for j in self.joints() {
+        for (j, at, turns) in self.joints() {
             let rate = j.ratio * v[j.coordinate];
-            if j.turns {
-                let center = carried.velocity_at(j.at);
+            if turns {
+                let center = carried.velocity_at(at);
                 bias = bias + (velocity - center).perp() * rate;
-                carried.turn(j.at, rate);
+                carried.turn(at, rate);
             } else {
-                bias = bias + j.at.perp() * (rate * carried.turning);
-                carried.linear = carried.linear + j.at * rate;
+                bias = bias + at.perp() * (rate * carried.turning);
+                carried.linear = carried.linear + at * rate;
             }
         }
         PointMotion { velocity, bias }
