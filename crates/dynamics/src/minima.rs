@@ -17,6 +17,8 @@ pub struct Minimum {
     pub top: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
+    /// Greatest kinetic energy since the minimum before (or the start).
+    pub peak_before: f64,
     /// Whether an impact made it.
     pub at_impact: bool,
 }
@@ -30,6 +32,8 @@ pub struct MinimumFinder {
     pub found: Vec<Minimum>,
     /// Greatest kinetic energy so far.
     pub top: f64,
+    /// Greatest kinetic energy since the last minimum.
+    pub peak: f64,
     /// Whether the energy was last seen falling, and where a flat stretch at the bottom began.
     falling: bool,
     flat_since: Option<f64>,
@@ -74,7 +78,7 @@ impl MinimumFinder {
 
     /// The power changes sign at most once between two neighbouring samples.
     fn between(&mut self, motion: &Motion, a: Sample, b: Sample) {
-        self.top = self.top.max(a.energy).max(b.energy);
+        self.rise_to(a.energy.max(b.energy));
         if a.power < 0.0 && b.power > 0.0 {
             let t = motion.zero(a, b);
             self.record(motion, t, false);
@@ -82,7 +86,7 @@ impl MinimumFinder {
             return;
         }
         if a.power > 0.0 && b.power < 0.0 {
-            self.top = self.top.max(motion.sample(motion.zero(b, a)).energy);
+            self.rise_to(motion.sample(motion.zero(b, a)).energy);
         }
         if (a.power > 0.0 || b.power > 0.0) && self.falling && a.power >= 0.0 {
             let impact = self.flat_since.is_some();
@@ -104,7 +108,13 @@ impl MinimumFinder {
         let state: Vec<_> = motion.paths.iter().map(|p| p.at(t)).collect();
         let (q, v) = (state.iter().map(|s| s.q).collect(), state.iter().map(|s| s.v).collect::<Vec<f64>>());
         let energy = crate::energy::kinetic(motion.system, &v);
-        self.found.push(Minimum { t, energy, top: self.top, q, v, at_impact });
+        self.found.push(Minimum { t, energy, top: self.top, q, v, peak_before: self.peak, at_impact });
+        self.peak = energy;
+    }
+
+    fn rise_to(&mut self, energy: f64) {
+        self.top = self.top.max(energy);
+        self.peak = self.peak.max(energy);
     }
 }
 

@@ -4,8 +4,9 @@ use crate::component::{Component, Tolerance};
 use crate::energy::{Energy, friction_loss, kinetic, potential};
 use crate::events::{Event, entries};
 use crate::flight::{Flight, State};
-use crate::minima::MinimumFinder;
+use crate::minima::{Minimum, MinimumFinder};
 use crate::path::{Path, Piece, Trajectory};
+use crate::ranges::Track;
 use crate::place::is_standing;
 use crate::search::{CLOSED, Stretch, Watch, first_closing};
 use crate::settle::{Closed, Instant, Settled, groups, settle};
@@ -58,6 +59,24 @@ const AT_REST: f64 = 1e-13;
 /// Events allowed without any passage of time.
 const MOST_AT_ONCE: u32 = 200;
 
+/// A finished run: how it ended, where, and everything on the way.
+#[derive(Clone, Debug)]
+pub struct Run {
+    pub status: Status,
+    /// Time reached.
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    /// Contacts closed at the end, with their forces.
+    pub closed: Vec<Closed>,
+    pub trajectory: Trajectory,
+    pub events: Vec<Event>,
+    pub energy: Energy,
+    /// Every local minimum of the kinetic energy.
+    pub minima: Vec<Minimum>,
+    pub stats: Stats,
+}
+
 /// A run in progress.
 pub struct Simulation<'a> {
     pub world: World<'a>,
@@ -79,6 +98,8 @@ pub struct Simulation<'a> {
     pub events: Vec<Event>,
     pub energy: Energy,
     pub minima: MinimumFinder,
+    /// The last stretch of motion and the ranges since they were last taken; kept only when asked for.
+    pub track: Option<Track>,
     pub stats: Stats,
     pub status: Option<Status>,
 }
@@ -107,6 +128,7 @@ impl<'a> Simulation<'a> {
             events: vec![],
             energy: Energy { initial, last: initial, ..Energy::default() },
             minima: MinimumFinder::default(),
+            track: None,
             stats: Stats::default(),
             status: None,
             options,
@@ -221,6 +243,11 @@ impl<'a> Simulation<'a> {
         let system = self.world.system;
         self.minima.stretch(system, &self.paths, self.t, t);
         self.energy.friction += friction_loss(system, &self.paths, self.t, t);
+        if let Some(track) = &mut self.track {
+            track.ranges.extend(&self.paths, self.t, t);
+            (track.from, track.to) = (self.t, t);
+            track.paths.clone_from(&self.paths);
+        }
         for (i, path) in self.paths.iter().enumerate() {
             let State { q, v } = path.at(t);
             (self.q[i], self.v[i]) = (q, v);
@@ -401,6 +428,28 @@ impl<'a> Simulation<'a> {
             }
         }
         resting
+    }
+
+    /// Scales of position and velocity that tolerances are relative to, by coordinate.
+    pub fn scales(&self) -> (&[f64], &[f64]) {
+        (&self.scales, &self.speeds)
+    }
+
+    /// What is left when the run is over.
+    pub fn into_run(mut self) -> Run {
+        let status = self.status.unwrap_or_else(|| self.end(Status::Stopped));
+        Run {
+            status,
+            t: self.t,
+            q: self.q,
+            v: self.v,
+            closed: self.closed,
+            trajectory: self.trajectory,
+            events: self.events,
+            energy: self.energy,
+            minima: self.minima.found,
+            stats: self.stats,
+        }
     }
 
     fn end(&mut self, status: Status) -> Status {
