@@ -4,14 +4,42 @@ use mainspring_geometry::{Axis, Vec3};
 use mainspring_geometry::{Rigid3, Scalar};
 use std::f64::consts::PI;
 
-/// `value` with its real part replaced by `real`; derivatives kept.
+/// Factor that brings numbers near the ends of the range of `f64` to where their squares and reciprocals are finite.
+const SCALE: f64 = f64::from_bits((1023 + 500) << 52); // 2^500
+
+/// `value` with its real part replaced by `real`; derivatives kept, unless `value` left the range of numbers.
 pub(crate) fn with_real<S: Scalar>(value: S, real: f64) -> S {
+    if S::NDERIV == 0 || !value.re().is_finite() || !real.is_finite() {
+        return S::constant(real);
+    }
     value - value.re() + real
 }
 
-/// Quotient; a dual number's own division multiplies by the reciprocal, which rounds differently.
+/// The power of two by which numbers of this size are multiplied before they are squared or inverted.
+fn scale(size: f64) -> f64 {
+    if size < 1.0 / SCALE {
+        SCALE
+    } else if size > SCALE {
+        1.0 / SCALE
+    } else {
+        1.0
+    }
+}
+
+/// Quotient; a dual number's own division multiplies by the reciprocal, which rounds differently and is infinite
+/// for the least divisors.
 pub(crate) fn quotient<S: Scalar>(a: S, b: S) -> S {
-    with_real(a / b, a.re() / b.re())
+    let scale = scale(b.re().abs());
+    with_real((a * scale) / (b * scale), a.re() / b.re())
+}
+
+/// Square root of a number that is not negative; at zero, where it has no derivative, that is taken as zero.
+pub(crate) fn root<S: Scalar>(x: S) -> S {
+    if x.re() == 0.0 {
+        return S::constant(0.0);
+    }
+    let root = if x.re() < 1.0 / SCALE { (x * (SCALE * SCALE)).sqrt() * (1.0 / SCALE) } else { x.sqrt() };
+    with_real(root, x.re().sqrt())
 }
 
 /// Sine and cosine of an angle in degrees, exact at multiples of 90°; derivatives are per degree.
@@ -34,8 +62,9 @@ pub(crate) fn atan2_degrees<S: Scalar>(y: S, x: S) -> S {
     if y.re() == 0.0 && x.re() == 0.0 {
         return S::constant(0.0);
     }
+    let scale = scale(y.re().abs().max(x.re().abs()));
     let real = y.re().atan2(x.re()) * (180.0 / PI);
-    with_real(y.atan2(x) * (180.0 / PI), real)
+    with_real((y * scale).atan2(x * scale) * (180.0 / PI), real)
 }
 
 /// Right-handed rotation by `angle` degrees about an axis through the origin, exact at multiples of 90°.

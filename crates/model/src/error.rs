@@ -65,6 +65,15 @@ pub fn quote(text: &str) -> String {
     format!("`{shown}`")
 }
 
+/// A number for messages: very small and very large ones with an exponent.
+pub(crate) fn number(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() || (1e-5..1e16).contains(&x.abs()) {
+        x.to_string()
+    } else {
+        format!("{x:e}")
+    }
+}
+
 /// A file's name for messages: whole, but on one line and without control characters.
 pub(crate) fn file_name(name: &str) -> String {
     name.chars().map(visible).collect()

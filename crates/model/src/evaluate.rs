@@ -1,7 +1,7 @@
 //! Evaluation of a machine: numbers, sizes and poses over any scalar.
 
 use crate::description::{Gear, PartModel, SymmetricUnion};
-use crate::error::{Error, Fault, Place, Read, quote};
+use crate::error::{Error, Fault, Place, Read, number, quote};
 use crate::expression::Expression;
 use crate::machine::Machine;
 use crate::names;
@@ -18,7 +18,8 @@ impl Machine {
         self.values_over(&overrides)
     }
 
-    /// As [`Machine::values`], with the derivative of everything with respect to one parameter.
+    /// As [`Machine::values`], with the derivative of everything with respect to one parameter, which counts as set:
+    /// what it is defined by has no influence. Real parts are bit-identical to those of [`Machine::values`].
     pub fn values_with_derivative(
         &self,
         set: &[(String, f64)],
@@ -84,7 +85,12 @@ impl Machine {
             _ if !x.is_finite() => Err(Fault::new(place, format!("{name} is {x}; expected a finite number"))),
             Some((low, high)) if x < low || x > high => Err(Fault::new(
                 place,
-                format!("{name} is {x}; expected a value in its range [{low}, {high}]"),
+                format!(
+                    "{name} is {}; expected a value in its range [{}, {}]",
+                    number(x),
+                    number(low),
+                    number(high)
+                ),
             )),
             _ => Ok(value),
         }
@@ -175,7 +181,8 @@ impl Machine {
         let Some(teeth) = &gear.teeth else { return Ok(None) };
         let count = self.positive(teeth, values, &format!("number of teeth of {}", gear.name))?.re();
         if count.fract() != 0.0 || count > 1e6 {
-            let message = format!("{} has {count} teeth; expected a whole number up to 1000000", gear.name);
+            let message =
+                format!("{} has {} teeth; expected a whole number up to 1000000", gear.name, number(count));
             return Err(self.error(teeth.place, message));
         }
         Ok(Some(count as u32))
@@ -192,7 +199,7 @@ impl Machine {
         if value.re() > 0.0 {
             return Ok(value);
         }
-        Err(self.error(e.place, format!("{what} is {}; expected a positive number", value.re())))
+        Err(self.error(e.place, format!("{what} is {}; expected a positive number", number(value.re()))))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Numeric expressions: postfix programs evaluated over any scalar.
 
-use crate::angle::{atan2_degrees, quotient, sin_cos_degrees};
-use crate::error::{Fault, Place, Read};
+use crate::angle::{atan2_degrees, quotient, root, sin_cos_degrees};
+use crate::error::{Fault, Place, Read, number};
 use mainspring_geometry::Scalar;
 
 /// A function of the language; angles in degrees.
@@ -127,17 +127,19 @@ impl Expression {
     fn tangent<S: Scalar>(&self, x: S) -> Read<S> {
         let (s, c) = sin_cos_degrees(x);
         if c.re() == 0.0 {
-            return Err(self.fault(format!("tan of {} degrees is infinite; expected another angle", x.re())));
+            return Err(
+                self.fault(format!("tan of {} degrees is infinite; expected another angle", number(x.re())))
+            );
         }
         Ok(quotient(s, c))
     }
 
-    /// At zero, where the root has no derivative, its derivative is taken as zero.
     fn root<S: Scalar>(&self, x: S) -> Read<S> {
         if x.re() < 0.0 {
-            return Err(self.fault(format!("sqrt of {}; expected a number that is not negative", x.re())));
+            let message = format!("sqrt of {}; expected a number that is not negative", number(x.re()));
+            return Err(self.fault(message));
         }
-        Ok(if x.re() == 0.0 { S::constant(0.0) } else { x.sqrt() })
+        Ok(root(x))
     }
 
     fn pop<S: Scalar>(&self, stack: &mut Vec<S>) -> Read<S> {

@@ -1,6 +1,6 @@
 //! Statements: `generic`, definitions, `attr`.
 
-use crate::error::{Fault, Place, Read, quote};
+use crate::error::{Fault, Place, Read, number, quote};
 use crate::lexer::TokenKind;
 use crate::limits::DEFINITIONS;
 use crate::names;
@@ -157,7 +157,7 @@ impl Parser<'_> {
         if low >= high {
             return Err(Fault::new(
                 place,
-                format!("the range [{low}, {high}] is empty; expected low < high"),
+                format!("the range [{}, {}] is empty; expected low < high", number(low), number(high)),
             ));
         }
         Ok((low, high))

@@ -1,7 +1,7 @@
 //! The supplement: inertias, frictions, springs, and the initial state (Gelsey 1995, Fig. 13).
 
 use crate::description::{PairData, Spring, StateValue, Supplement};
-use crate::error::{Fault, Place, Read, quote};
+use crate::error::{Fault, Place, Read, number, quote};
 use crate::lexer::{Lexer, Token, TokenKind};
 use crate::machine::Machine;
 use crate::names;
@@ -80,7 +80,10 @@ impl<'a> Reader<'a> {
             return Ok((None, not_negative(first, place, "friction")?));
         }
         if first <= 0.0 {
-            return Err(Fault::new(place, format!("the inertia is {first}; expected a positive number")));
+            return Err(Fault::new(
+                place,
+                format!("the inertia is {}; expected a positive number", number(first)),
+            ));
         }
         let place = self.token.place;
         let friction = self.number("the friction")?;
@@ -192,7 +195,7 @@ fn not_negative(value: f64, place: Place, what: &str) -> Read<f64> {
     if value >= 0.0 {
         return Ok(value);
     }
-    Err(Fault::new(place, format!("the {what} is {value}; expected zero or a positive number")))
+    Err(Fault::new(place, format!("the {what} is {}; expected zero or a positive number", number(value))))
 }
 
 fn twice(place: Place, earlier: Place, what: &str, part: &str) -> Box<Fault> {

@@ -1,6 +1,6 @@
 //! A primitive as written: its word and the expressions of its sizes.
 
-use crate::error::{Fault, Place, Read};
+use crate::error::{Fault, Place, Read, number};
 use crate::expression::Expression;
 use mainspring_geometry::{Scalar, Shape};
 
@@ -86,6 +86,9 @@ impl ShapeText {
     }
 
     fn not_positive(&self, name: &str, size: f64, place: Place) -> Box<Fault> {
-        Fault::new(place, format!("size {name} of {} is {size}; expected a positive number", self.label))
+        Fault::new(
+            place,
+            format!("size {name} of {} is {}; expected a positive number", self.label, number(size)),
+        )
     }
 }
