@@ -25,7 +25,7 @@ class Pair:
     Attributes
     ----------
     kind
-        `revolute`, `prismatic`, `cylindrical` or `gear`, as it acts in the machine.
+        `revolute`, `prismatic`, `cylindrical`, `gear` or `fixed`, as it acts in the machine.
     shape_kind
         The kind its shapes alone allow.
     parts

@@ -43,15 +43,16 @@ def part_points(part: Part) -> list[Xy]:
     return found
 
 
-def bounds(parts: list[Part], poses: Iterable[Mapping[str, float]]) -> tuple[float, float, float, float]:
-    """Return the box (left, bottom, right, top) of all parts in all these poses."""
+def bounds(
+    parts: list[Part], poses: Iterable[Mapping[str, float]], others: Iterable[Xy] = ()
+) -> tuple[float, float, float, float]:
+    """Return the box (left, bottom, right, top) of all parts in all these poses and of other points."""
     spans = {part["name"]: part_points(part) for part in parts}
-    found = [
-        moved(part, pose.get(part["name"], 0.0), p)
-        for pose in poses
-        for part in parts
-        for p in spans[part["name"]]
-    ]
+    found = list(others)
+    for pose in poses:
+        for part in parts:
+            q = pose.get(part["name"], 0.0)
+            found += [moved(part, q, p) for p in spans[part["name"]]]
     if not found:
         return -1.0, -1.0, 1.0, 1.0
     xs, ys = [p[0] for p in found], [p[1] for p in found]

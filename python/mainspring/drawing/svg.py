@@ -1,6 +1,7 @@
 """The machine as one SVG: layers by depth, axes, springs, pitch circles."""
 
 import html
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -16,6 +17,7 @@ STYLE = (
     "stroke-width:1.3;stroke-linejoin:round}"
     ".pf .body{fill:color-mix(in srgb,var(--c) 13%,var(--paper));stroke-width:1}"
     ".plate .body{fill-opacity:.55;stroke-opacity:.55}"
+    ".cover .body{fill-opacity:.1;stroke-dasharray:5 4}"
     ".axis{stroke:var(--ink);stroke-width:.8;fill:none}"
     ".slideway{stroke:var(--c);stroke-width:.8;stroke-dasharray:9 3 1.5 3;fill:none}"
     ".pitch{stroke:var(--c);stroke-width:1;stroke-dasharray:9 3 1.5 3;fill:none}"
@@ -45,9 +47,12 @@ class Box:
         return (self.right - self.left) / (self.top - self.bottom)
 
 
-def frame_box(parts: list[Part], poses: Iterable[Mapping[str, float]]) -> Box:
-    """Return a box around all poses with a margin of three hundredths."""
-    left, bottom, right, top = bounds(parts, poses)
+def frame_box(outlines: dict[str, Any], poses: Iterable[Mapping[str, float]]) -> Box:
+    """Return a box around all poses and springs with a margin of three hundredths."""
+    parts = {part["name"]: part for part in outlines["parts"]}
+    forms = [shape(parts[s["part"]], s, outlines["size"]) for s in outlines["springs"]]
+    held = [form.fixed for form in forms if form]
+    left, bottom, right, top = bounds(outlines["parts"], poses, held)
     margin = 0.03 * max(right - left, top - bottom, 1e-12)
     return Box(left - margin, bottom - margin, right + margin, top + margin)
 
@@ -74,11 +79,15 @@ def _bodies(parts: list[Part], q: Mapping[str, float]) -> str:
         for depth, layer in enumerate(part["layers"])
     )
     lowest = order[0][0] if order else 0.0
+    moving = [layer["top"] for part in parts if not part["frame"] for layer in part["layers"]]
+    cover = min(moving, default=math.inf)
     drawn = []
     for bottom, _, index, depth in order:
         part = parts[index]
         kind = f"part {colour[part['name']]}"
-        if part["frame"] and bottom == lowest:
+        if part["frame"] and bottom >= cover:
+            kind += " cover"
+        elif part["frame"] and bottom == lowest:
             kind += " plate"
         body = f'<path class="body" d="{path(part["layers"][depth]["loops"])}"/>'
         drawn.append(_group(part, kind, q, body))
@@ -151,7 +160,8 @@ def described(outlines: dict[str, Any]) -> str:
             how = "turns about ({:.4g}, {:.4g})".format(*motion["center"])
         elif motion:
             how = "slides along ({:.4g}, {:.4g})".format(*motion["direction"])
-        said.append(f"{part['name']} {how}")
+        unseen = "" if part["layers"] else " and has no outline in this plane"
+        said.append(f"{part['name']} {how}{unseen}")
     return "; ".join(said) + "."
 
 
@@ -180,7 +190,7 @@ def picture(
         CSS to carry inside, for a file of its own.
     """
     parts, q = outlines["parts"], at or {}
-    box = frame_box(parts, [*poses, q])
+    box = frame_box(outlines, [*poses, q])
     inside = _bodies(parts, q) + _gears(parts, q) + _springs(outlines, q) + _axes(parts, outlines["size"])
     css = f"<style>{style}</style>" if style else ""
     return (
