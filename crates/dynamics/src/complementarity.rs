@@ -46,7 +46,8 @@ fn enter(a: &[f64], b: &[f64], entering: usize, s: &mut Solution) -> bool {
     if let Some(factor) = factor(a, n, &s.active) {
         let column: Vec<f64> = s.active.iter().map(|&i| a[i * n + entering]).collect();
         let response = factor.solve(&column);
-        let rest: f64 = a[entering * n + entering] - response.iter().zip(&column).map(|(x, y)| x * y).sum::<f64>();
+        let rest: f64 =
+            a[entering * n + entering] - response.iter().zip(&column).map(|(x, y)| x * y).sum::<f64>();
         if rest <= 1e-11 * a[entering * n + entering] {
             // Dependent: moving along the null direction lowers the cost until an active λ reaches zero.
             let blocking = s

@@ -73,7 +73,13 @@ impl Component {
 
     /// Forces of the contacts, and accelerations of all coordinates they touch added to `acceleration`. None if
     /// the contacts are not independent here.
-    pub fn forces(&self, world: &mut World, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Option<Vec<f64>> {
+    pub fn forces(
+        &self,
+        world: &mut World,
+        q: &[f64],
+        v: &[f64],
+        acceleration: &mut [f64],
+    ) -> Option<Vec<f64>> {
         for &i in &self.coordinates {
             acceleration[i] = world.system.coordinates[i].free_acceleration(q[i], v[i]);
         }
@@ -98,7 +104,8 @@ impl Component {
         tolerance: &Tolerance,
     ) -> Option<Advance> {
         let n = self.coordinates.len();
-        let y: Vec<f64> = self.coordinates.iter().map(|&i| q[i]).chain(self.coordinates.iter().map(|&i| v[i])).collect();
+        let y: Vec<f64> =
+            self.coordinates.iter().map(|&i| q[i]).chain(self.coordinates.iter().map(|&i| v[i])).collect();
         let mut step = std::mem::take(&mut self.step);
         step.resize(2 * n);
         let mut h = h.min(longest);
@@ -124,19 +131,25 @@ impl Component {
 
     fn scale(&self, acceleration: &[f64], h: f64, tolerance: &Tolerance) -> Vec<f64> {
         let positions = self.coordinates.iter().map(|&i| tolerance.relative * tolerance.positions[i]);
-        let speeds = self
-            .coordinates
-            .iter()
-            .zip(acceleration)
-            .map(|(&i, a)| tolerance.relative * tolerance.speeds[i].max(a.abs() * h).max(f64::MIN_POSITIVE));
+        let speeds =
+            self.coordinates.iter().zip(acceleration).map(|(&i, a)| {
+                tolerance.relative * tolerance.speeds[i].max(a.abs() * h).max(f64::MIN_POSITIVE)
+            });
         positions.chain(speeds).collect()
     }
 
     /// Bounds over the step are those of its stages with a quarter added: the step's error is controlled.
-    fn paths(&self, step: &Step, dense: &[crate::runge_kutta::Polynomial], t: f64, h: f64) -> Vec<(usize, Path)> {
+    fn paths(
+        &self,
+        step: &Step,
+        dense: &[crate::runge_kutta::Polynomial],
+        t: f64,
+        h: f64,
+    ) -> Vec<(usize, Path)> {
         let n = self.coordinates.len();
         let greatest = |unknown: usize| {
-            (0..=crate::tableau::STAGES).map(|s| step.stage_derivative(s, unknown).abs()).fold(0.0, f64::max) * 1.25
+            (0..=crate::tableau::STAGES).map(|s| step.stage_derivative(s, unknown).abs()).fold(0.0, f64::max)
+                * 1.25
         };
         (0..n)
             .map(|k| {
@@ -151,7 +164,9 @@ impl Component {
         for _ in 0..3 {
             let touches = self.touches(world, q);
             let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
-            let Some(factor) = Cholesky::new(inverse_inertia(world.system, &rows), rows.len()) else { return };
+            let Some(factor) = Cholesky::new(inverse_inertia(world.system, &rows), rows.len()) else {
+                return;
+            };
             let gaps: Vec<f64> = touches.iter().map(|t| -t.state.gap).collect();
             let rates: Vec<f64> = touches.iter().map(|t| -t.rate(v)).collect();
             add_forces(world.system, &rows, &factor.solve(&rates), v);

@@ -27,5 +27,5 @@ pub use flight::{Bounds, Flight, State};
 pub use minima::{Minimum, MinimumFinder};
 pub use path::{Path, Piece, Trajectory};
 pub use ranges::{Ranges, Track};
-pub use settle::Closed;
-pub use simulation::{Options, Run, Simulation, Stats, Status};
+pub use settle::{Closed, forces_at};
+pub use simulation::{Mode, Options, Run, Simulation, Stats, Status};

@@ -6,10 +6,18 @@ use crate::runge_kutta::Polynomial;
 /// A coordinate's motion as a function of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Path {
-    Rest { q: f64 },
+    Rest {
+        q: f64,
+    },
     Flight(Flight),
     /// A step of the integrator, with bounds that hold over all of it.
-    Step { t0: f64, h: f64, q: Polynomial, v: Polynomial, bounds: Bounds },
+    Step {
+        t0: f64,
+        h: f64,
+        q: Polynomial,
+        v: Polynomial,
+        bounds: Bounds,
+    },
 }
 
 impl Path {

@@ -99,7 +99,10 @@ fn alternatives(world: &World, touch: &Touch) -> Vec<Candidate> {
     if rounds[round].is_corner() {
         pairs.extend(rounds[round].neighbours.iter().map(|&f| (f, corner)));
     }
-    pairs.iter().filter_map(|&(r, e)| candidate_of(world, candidate, if swapped { (e, r) } else { (r, e) })).collect()
+    pairs
+        .iter()
+        .filter_map(|&(r, e)| candidate_of(world, candidate, if swapped { (e, r) } else { (r, e) }))
+        .collect()
 }
 
 /// The convex corner at one end of an edge.
@@ -114,7 +117,8 @@ fn corner_at(features: &[Feature], edge: usize, at_end: bool) -> Option<usize> {
 fn candidate_of(world: &World, like: &Candidate, ids: (usize, usize)) -> Option<Candidate> {
     let interaction = like.id.interaction;
     let pair = &world.system.interactions[interaction as usize];
-    let features = (&world.system.features[pair.bodies.0][ids.0], &world.system.features[pair.bodies.1][ids.1]);
+    let features =
+        (&world.system.features[pair.bodies.0][ids.0], &world.system.features[pair.bodies.1][ids.1]);
     let kind = pair.kind(ids, features)?;
     let id = ContactId { interaction, first: ids.0 as u32, second: ids.1 as u32 };
     Some(Candidate { id, kind, distance: 0.0 })

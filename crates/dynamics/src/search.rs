@@ -153,7 +153,15 @@ fn is_closed(watched: &[(ContactId, Watch)], candidate: &Candidate) -> bool {
 }
 
 /// How far to look with this list: no unlisted contact can close before, and the listed ones that can are few.
-fn horizon(world: &World, interaction: usize, travelled: f64, room: f64, speed: f64, t: f64, until: f64) -> f64 {
+fn horizon(
+    world: &World,
+    interaction: usize,
+    travelled: f64,
+    room: f64,
+    speed: f64,
+    t: f64,
+    until: f64,
+) -> f64 {
     if speed * (until - t) <= room.min(0.04 * world.system.size) {
         return until;
     }
@@ -174,7 +182,12 @@ struct March<'s, 'p> {
 type Real<'r> = &'r mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool;
 
 impl March<'_, '_> {
-    fn touch<'a>(&self, world: &mut World<'a>, c: &Candidate, at: (&mut [f64], &mut [f64])) -> (Touch<'a>, f64) {
+    fn touch<'a>(
+        &self,
+        world: &mut World<'a>,
+        c: &Candidate,
+        at: (&mut [f64], &mut [f64]),
+    ) -> (Touch<'a>, f64) {
         // Only the coordinates that move these two bodies matter.
         for arm in &world.arms[c.id.interaction as usize] {
             let State { q, v } = self.stretch.paths[arm.coordinate].at(self.t);
@@ -214,7 +227,9 @@ impl March<'_, '_> {
             let clear = gap.abs().max(0.0) + if gap.abs() <= closed { 3.0 * closed } else { 0.0 };
             let centers = touch.state.distance_of_centers();
             let limit = if centers.is_finite() { 0.5 * centers / self.pace.total() } else { f64::INFINITY };
-            let step = safe_step(clear, side * rate, bound).min(limit).max(0.99 * gap.abs() / self.pace.lipschitz(away));
+            let step = safe_step(clear, side * rate, bound)
+                .min(limit)
+                .max(0.99 * gap.abs() / self.pace.lipschitz(away));
             self.t += step.max(4.0 * f64::EPSILON * self.t.abs());
         }
         // Bound met: hand the place to the resolver rather than step over it.
@@ -267,9 +282,5 @@ impl March<'_, '_> {
 /// Positive root of `g + s Δ − B Δ²/2`: no zero of the gap lies before it. `g ≥ 0`; infinite when nothing bends.
 fn safe_step(g: f64, s: f64, bound: f64) -> f64 {
     let root = (s * s + 2.0 * bound * g).sqrt();
-    if s >= 0.0 {
-        if bound > 0.0 { (s + root) / bound } else { f64::INFINITY }
-    } else {
-        2.0 * g / (root - s)
-    }
+    if s >= 0.0 { if bound > 0.0 { (s + root) / bound } else { f64::INFINITY } } else { 2.0 * g / (root - s) }
 }

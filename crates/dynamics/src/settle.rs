@@ -4,11 +4,11 @@
 //! `(q̇⁺ − q̇⁻)ᵀ M (q̇⁺ − q̇⁻)` subject to `G q̇⁺ ≥ 0` (perfectly inelastic); afterwards Gauss's principle gives the
 //! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem.
 
-use crate::complementarity::solve;
+use crate::complementarity::{Solution, solve};
 use crate::place::representatives;
 use crate::search::TOGETHER;
 use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, ContactId, Row, System};
+use mainspring_mechanism::{Candidate, ContactId, ContactSource, Row, System};
 
 /// Rates below this fraction of the speeds at hand count as zero.
 const STILL: f64 = 1e-10;
@@ -73,6 +73,21 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     let touches = choose(world, instant, &near, v);
     hold(world.system, instant, &touches, v, &mut out);
     out
+}
+
+/// Forces at a state of the contacts known to be closed there (Gelsey 1995, Sec. 2.2.2), in their order.
+pub fn forces_at(
+    system: &System,
+    source: &dyn ContactSource,
+    closed: &[Closed],
+    q: &[f64],
+    v: &[f64],
+) -> Vec<Closed> {
+    let mut world = World::new(system, source);
+    let touches: Vec<Touch> = closed.iter().map(|c| world.touch(&c.candidate, q)).collect();
+    let problem = Balance::new(system, touches.iter().collect(), q, v);
+    let forces = problem.solution.lambda;
+    closed.iter().zip(forces).map(|(c, force)| Closed { force, active: force > 0.0, ..*c }).collect()
 }
 
 /// Every contact closed to `TOGETHER` at `q`, wherever along its features.
@@ -159,10 +174,10 @@ pub struct Group {
 pub fn groups(rows: &[Row], active: &[usize]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for &k in active {
-        let mut merged = Group { coordinates: rows[k].entries().map(|(i, _)| i).collect(), contacts: vec![k] };
-        let (joined, others): (Vec<Group>, Vec<Group>) = groups
-            .into_iter()
-            .partition(|g| g.coordinates.iter().any(|i| merged.coordinates.contains(i)));
+        let mut merged =
+            Group { coordinates: rows[k].entries().map(|(i, _)| i).collect(), contacts: vec![k] };
+        let (joined, others): (Vec<Group>, Vec<Group>) =
+            groups.into_iter().partition(|g| g.coordinates.iter().any(|i| merged.coordinates.contains(i)));
         for g in joined {
             merged.coordinates.extend(g.coordinates);
             merged.contacts.extend(g.contacts);
@@ -179,39 +194,46 @@ pub fn groups(rows: &[Row], active: &[usize]) -> Vec<Group> {
 
 /// Which touching contacts stay closed, with what forces (Gauss's principle).
 fn hold(system: &System, instant: &Instant, touches: &[Touch], v: &[f64], out: &mut Settled) {
-    let still: Vec<&Touch> = touches
-        .iter()
-        .filter(|t| t.rate(v).abs() <= rate_tolerance(&t.row(), instant.speeds))
-        .collect();
-    let rows: Vec<Row> = still.iter().map(|t| t.row()).collect();
-    let free: Vec<f64> = system
-        .coordinates
-        .iter()
-        .enumerate()
-        .map(|(i, c)| c.free_acceleration(instant.q[i], v[i]))
-        .collect();
-    let bias: Vec<f64> = still.iter().map(|t| t.bias(v)).collect();
-    let b: Vec<f64> = rows.iter().zip(&bias).map(|(row, bias)| row.dot(&free) + bias).collect();
-    let tolerance: Vec<f64> = rows
-        .iter()
-        .zip(&bias)
-        .map(|(row, bias)| BALANCED * (weigh(system, row, instant.q, v) + bias.abs()))
-        .collect();
-    let solution = solve(&inverse_inertia(system, &rows), &b, &tolerance);
+    let still =
+        touches.iter().filter(|t| t.rate(v).abs() <= rate_tolerance(&t.row(), instant.speeds)).collect();
+    let Balance { touches, tolerance, solution, acceleration } = Balance::new(system, still, instant.q, v);
     out.solved &= solution.solved;
-    out.acceleration = free;
-    let mut extra = vec![0.0; v.len()];
-    add_forces(system, &rows, &solution.lambda, &mut extra);
-    for (a, extra) in out.acceleration.iter_mut().zip(extra) {
-        *a += extra;
-    }
-    for (k, touch) in still.iter().enumerate() {
+    out.acceleration = acceleration;
+    for (k, touch) in touches.iter().enumerate() {
         let (force, candidate) = (solution.lambda[k], touch.candidate);
         if force > 0.0 || solution.w[k] <= tolerance[k] {
             out.closed.push(Closed { candidate, force, active: force > 0.0 });
         } else {
             out.opening.push(candidate.id);
         }
+    }
+}
+
+/// Accelerations and contact forces by Gauss's principle over contacts with gap and rate zero.
+struct Balance<'t, 'a> {
+    touches: Vec<&'t Touch<'a>>,
+    /// Relative accelerations below these count as zero, by contact.
+    tolerance: Vec<f64>,
+    solution: Solution,
+    /// Of every coordinate.
+    acceleration: Vec<f64>,
+}
+
+impl<'t, 'a> Balance<'t, 'a> {
+    fn new(system: &System, touches: Vec<&'t Touch<'a>>, q: &[f64], v: &[f64]) -> Self {
+        let rows: Vec<Row> = touches.iter().map(|t| t.row()).collect();
+        let free = system.coordinates.iter().enumerate().map(|(i, c)| c.free_acceleration(q[i], v[i]));
+        let mut acceleration: Vec<f64> = free.collect();
+        let bias: Vec<f64> = touches.iter().map(|t| t.bias(v)).collect();
+        let b: Vec<f64> = rows.iter().zip(&bias).map(|(row, bias)| row.dot(&acceleration) + bias).collect();
+        let tolerance: Vec<f64> = rows
+            .iter()
+            .zip(&bias)
+            .map(|(row, bias)| BALANCED * (weigh(system, row, q, v) + bias.abs()))
+            .collect();
+        let solution = solve(&inverse_inertia(system, &rows), &b, &tolerance);
+        add_forces(system, &rows, &solution.lambda, &mut acceleration);
+        Self { touches, tolerance, solution, acceleration }
     }
 }
 

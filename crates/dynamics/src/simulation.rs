@@ -6,8 +6,8 @@ use crate::events::{Event, entries};
 use crate::flight::{Flight, State};
 use crate::minima::{Minimum, MinimumFinder};
 use crate::path::{Path, Piece, Trajectory};
-use crate::ranges::Track;
 use crate::place::is_standing;
+use crate::ranges::Track;
 use crate::search::{CLOSED, Stretch, Watch, first_closing};
 use crate::settle::{Closed, Instant, Settled, groups, settle};
 use crate::watch::{Change, first_change};
@@ -59,6 +59,13 @@ const AT_REST: f64 = 1e-13;
 /// Events allowed without any passage of time.
 const MOST_AT_ONCE: u32 = 200;
 
+/// The contacts closed from a time on, until the next mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    pub from: f64,
+    pub closed: Vec<Closed>,
+}
+
 /// A finished run: how it ended, where, and everything on the way.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -69,6 +76,8 @@ pub struct Run {
     pub v: Vec<f64>,
     /// Contacts closed at the end, with their forces.
     pub closed: Vec<Closed>,
+    /// Contact modes in the order of time; several may begin at one instant, the last of them counts.
+    pub modes: Vec<Mode>,
     pub trajectory: Trajectory,
     pub events: Vec<Event>,
     pub energy: Energy,
@@ -89,6 +98,7 @@ pub struct Simulation<'a> {
     paths: Vec<Path>,
     since: Vec<f64>,
     pub closed: Vec<Closed>,
+    modes: Vec<Mode>,
     /// Contacts not to look for before a positive gap was seen.
     released: Vec<ContactId>,
     components: Vec<(Component, f64)>,
@@ -107,7 +117,8 @@ pub struct Simulation<'a> {
 impl<'a> Simulation<'a> {
     /// Starts from the system's positions and velocities.
     pub fn new(system: &'a System, source: &'a dyn ContactSource, options: Options) -> Self {
-        let (q, v): (Vec<f64>, Vec<f64>) = system.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
+        let (q, v): (Vec<f64>, Vec<f64>) =
+            system.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
         let n = q.len();
         let world = World::new(system, source);
         let scales = position_scales(&world);
@@ -120,6 +131,7 @@ impl<'a> Simulation<'a> {
             paths: q.iter().map(|&q| Path::Rest { q }).collect(),
             since: vec![0.0; n],
             closed: vec![],
+            modes: vec![],
             released: vec![],
             components: vec![],
             next_step: options.until,
@@ -322,6 +334,7 @@ impl<'a> Simulation<'a> {
         self.released.sort_unstable();
         self.released.dedup();
         self.closed = settled.closed;
+        self.modes.push(Mode { from: self.t, closed: self.closed.clone() });
     }
 
     /// Rest, flight or component for every coordinate.
@@ -444,6 +457,7 @@ impl<'a> Simulation<'a> {
             q: self.q,
             v: self.v,
             closed: self.closed,
+            modes: self.modes,
             trajectory: self.trajectory,
             events: self.events,
             energy: self.energy,

@@ -32,7 +32,8 @@ const SAMPLES: u32 = 4;
 /// The first change of a component's contacts over the stretch.
 pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch) -> Option<(f64, Change)> {
     let n = stretch.paths.len();
-    let mut probe = Probe { component, stretch, q: vec![0.0; n], v: vec![0.0; n], acceleration: vec![0.0; n] };
+    let mut probe =
+        Probe { component, stretch, q: vec![0.0; n], v: vec![0.0; n], acceleration: vec![0.0; n] };
     let mut before = stretch.from;
     for k in 1..=SAMPLES {
         let t = stretch.from + (stretch.to - stretch.from) * f64::from(k) / f64::from(SAMPLES);

@@ -3,9 +3,7 @@
 //! A list made at configuration q₀ with reach r names every contact whose features were nearer than r. Features
 //! move no faster than their lever arms allow, so until the arms have travelled r no other contact can close.
 
-use mainspring_mechanism::{
-    Candidate, ContactSource, Feature, GapState, Placed, Row, System, gap_state,
-};
+use mainspring_mechanism::{Candidate, ContactSource, Feature, GapState, Placed, Row, System, gap_state};
 
 /// A coordinate that moves one side of an interaction.
 #[derive(Clone, Copy, Debug)]

@@ -73,6 +73,8 @@ pub struct Feature {
     pub shape: FeatureShape,
     /// Curves that pass here, aliases included (for a corner those of both sides, in two lists).
     pub curves: [Vec<CurveId>; 2],
+    /// Where it is in the outline: layer, loop and edge (a corner is the start of its edge).
+    pub at: (usize, usize, usize),
     /// Intervals of z in which it bounds the part.
     pub heights: Vec<(f64, f64)>,
     /// For a corner: its edges or arcs; for an edge or arc: the convex corners at its ends.
@@ -97,26 +99,30 @@ impl Feature {
 /// when they agree to `1e-9 · size`.
 pub fn features(outline: &Outline, size: f64) -> Vec<Feature> {
     let mut found = Vec::new();
-    for layer in &outline.layers {
-        for boundary in &layer.loops {
-            add_loop(&mut found, layer, boundary, 1e-9 * size);
+    for (i, layer) in outline.layers.iter().enumerate() {
+        for (j, boundary) in layer.loops.iter().enumerate() {
+            add_loop(&mut found, layer, boundary, (i, j), 1e-9 * size);
         }
     }
     number_occurrences(&mut found);
     found
 }
 
-fn add_loop(found: &mut Vec<Feature>, layer: &Layer, boundary: &Loop, tolerance: f64) {
+fn add_loop(found: &mut Vec<Feature>, layer: &Layer, boundary: &Loop, at: (usize, usize), tolerance: f64) {
     let edges = &boundary.edges;
     let heights = vec![(layer.bottom, layer.top)];
-    let curves: Vec<usize> =
-        edges.iter().map(|edge| insert(found, curve_feature(edge, heights.clone()), tolerance)).collect();
+    let placed = |feature: Feature, edge: usize| Feature { at: (at.0, at.1, edge), ..feature };
+    let curves: Vec<usize> = edges
+        .iter()
+        .enumerate()
+        .map(|(i, edge)| insert(found, placed(curve_feature(edge, heights.clone()), i), tolerance))
+        .collect();
     for (i, edge) in edges.iter().enumerate() {
         if edge.turn_at_start != Turn::Convex || matches!(edge.segment, Segment::Circle { .. }) {
             continue;
         }
         let before = (i + edges.len() - 1) % edges.len();
-        let corner = corner_feature(&edges[before], edge, heights.clone());
+        let corner = placed(corner_feature(&edges[before], edge, heights.clone()), i);
         let corner = insert(found, corner, tolerance);
         for neighbour in [curves[before], curves[i]] {
             link(found, corner, neighbour);
@@ -197,7 +203,16 @@ fn curve_feature(edge: &Edge, heights: Vec<(f64, f64)>) -> Feature {
     let mut curves = vec![edge.curve];
     curves.extend(&edge.aliases);
     let name = FeatureName { curve: edge.curve, next: None, occurrence: 0 };
-    Feature { name, shape, curves: [curves, vec![]], heights, neighbours: vec![], center, radius }
+    Feature {
+        name,
+        shape,
+        curves: [curves, vec![]],
+        at: (0, 0, 0),
+        heights,
+        neighbours: vec![],
+        center,
+        radius,
+    }
 }
 
 fn round(center: Vec2, radius: f64, cone: Cone, convex: bool) -> FeatureShape {
@@ -232,6 +247,7 @@ fn corner_feature(before: &Edge, after: &Edge, heights: Vec<(f64, f64)>) -> Feat
         name: FeatureName { curve: before.curve, next: Some(after.curve), occurrence: 0 },
         shape: FeatureShape::Round { center: p, radius: 0.0, cone: Cone::new(start, end, sweep) },
         curves: [all(before), all(after)],
+        at: (0, 0, 0),
         heights,
         neighbours: vec![],
         center: p,

@@ -22,6 +22,6 @@ mod kinematics;
 
 pub use kinematics::{
     AxisLine, Bounds, ClosedChain, CompileOptions, Dropped, Evidence, EvidenceKind, Freedom, JointSpring,
-    Mechanism, NearMiss, Pair, PairKind, Part, Subsystem, Symmetry, SymmetryType, Warning, WorkingPlane,
-    canonical,
+    Mechanism, NearMiss, Pair, PairKind, Part, PartValue, Subsystem, Symmetry, SymmetryType, Warning,
+    WorkingPlane, canonical,
 };

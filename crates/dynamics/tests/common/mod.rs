@@ -38,7 +38,8 @@ pub fn bodies(text: &str, joints: &[(&str, Joint)]) -> Vec<Body> {
         .parts()
         .iter()
         .map(|part| {
-            let outline = OutlineRecipe::find(&primitives, &part.csg, &plane).unwrap().evaluate(&primitives, &plane);
+            let outline =
+                OutlineRecipe::find(&primitives, &part.csg, &plane).unwrap().evaluate(&primitives, &plane);
             let name = part.name.to_lowercase();
             let chain = joints.iter().filter(|(n, _)| *n == name).map(|(_, j)| *j).collect();
             Body { name, chain, outline }
@@ -80,7 +81,8 @@ pub fn escapement() -> System {
         coordinate("lever", 10.0, 5.0, (0.0, 0.0)),
         coordinate("bwheel", 20.0, 6.0, (15.0, 90.0 * degree)),
     ];
-    let joints = [("ewheel", turn(0, 0.0, 0.0)), ("lever", turn(1, 0.0, 7.5)), ("bwheel", turn(2, 0.0, 20.0))];
+    let joints =
+        [("ewheel", turn(0, 0.0, 0.0)), ("lever", turn(1, 0.0, 7.5)), ("bwheel", turn(2, 0.0, 20.0))];
     let bodies = bodies(text, &joints);
     let exclusions = journals(&bodies);
     System::new(coordinates, bodies, &exclusions, 31.0)

@@ -1,0 +1,105 @@
+//! `inspect`: parts, pairs with their evidence, subsystems, what may touch.
+
+use crate::words::{clean, vec3};
+use mainspring_mechanism::{Mechanism, Pair, PairKind, Subsystem};
+use mainspring_model::{Machine, Parameter};
+use serde_json::{Value, json};
+
+/// The object that `inspect --json` prints.
+pub fn inspect_json(m: &Mechanism) -> Value {
+    let name = |i: usize| m.parts[i].name.clone();
+    let names = |(a, b): (usize, usize)| json!([name(a), name(b)]);
+    let mut interactions: Vec<[String; 2]> =
+        m.interactions().iter().map(|&(a, b)| sorted(name(a), name(b))).collect();
+    interactions.sort();
+    json!({
+        "parts": m.parts.iter().map(|p| &p.name).collect::<Vec<_>>(),
+        "frame": name(m.frame),
+        "pairs": m.pairs.iter().map(|p| pair(m, p)).collect::<Vec<_>>(),
+        "subsystems": m.subsystems.iter().map(|s| subsystem(m, s)).collect::<Vec<_>>(),
+        "state_variables": m.state_variables(),
+        "interactions": interactions,
+        "near_misses": m.near_misses.iter().map(|n| json!({"parts": names(n.parts), "why": n.reason})).collect::<Vec<_>>(),
+        "closed_chains": m.closed_chains.iter().map(|c| json!({
+            "parts": c.parts.iter().map(|&p| name(p)).collect::<Vec<_>>(),
+            "mobility": c.mobility,
+        })).collect::<Vec<_>>(),
+        "mobility": m.mobility,
+        "warnings": warnings(m),
+        "plane": plane(m),
+        "units": {"length": null, "time": null, "angle": "rad"},
+    })
+}
+
+/// The parameters of a machine: name, value at the defaults, range.
+pub fn parameters_json(machine: &Machine) -> Value {
+    let one = |p: &Parameter| {
+        let range = p.range.map(|(low, high)| [low, high]);
+        json!({"name": p.name, "value": p.default, "range": range})
+    };
+    machine.parameters().iter().map(one).collect()
+}
+
+/// Two names in order, letter case ignored.
+fn sorted(a: String, b: String) -> [String; 2] {
+    if a.to_lowercase() <= b.to_lowercase() { [a, b] } else { [b, a] }
+}
+
+fn pair(m: &Mechanism, p: &Pair) -> Value {
+    let name = |i: usize| &m.parts[i].name;
+    let axis = (p.kind != PairKind::Fixed)
+        .then(|| json!({"point": vec3(p.axis.point), "direction": vec3(p.axis.direction)}));
+    let evidence: Vec<&str> = p
+        .evidence
+        .iter()
+        .map(|e| e.text.as_str())
+        .chain(p.dropped.iter().map(|d| d.reason.as_str()))
+        .collect();
+    json!({
+        "kind": p.kind.name(),
+        "shape_kind": p.shape_kind.name(),
+        "parts": [name(p.parts.0), name(p.parts.1)],
+        "axis": axis,
+        "ratio": p.ratio,
+        "clearance": clean(p.clearance),
+        "evidence": evidence,
+    })
+}
+
+fn subsystem(m: &Mechanism, s: &Subsystem) -> Value {
+    let name = |i: usize| &m.parts[i].name;
+    json!({
+        "root": name(s.root),
+        "parts": s.parts.iter().map(|(p, _)| name(*p)).collect::<Vec<_>>(),
+        "ratios": s.parts.iter().map(|(_, r)| clean(*r)).collect::<Vec<_>>(),
+        "inertia": s.inertia,
+        "locked": s.locked,
+    })
+}
+
+/// Warnings as on standard error, with their place where they have one.
+fn warnings(m: &Mechanism) -> Vec<String> {
+    m.warnings
+        .iter()
+        .map(|w| match w.place {
+            Some(place) => {
+                m.machine.error(place, w.message.clone()).to_string().replacen(": error: ", ": warning: ", 1)
+            }
+            None => w.message.clone(),
+        })
+        .collect()
+}
+
+fn plane(m: &Mechanism) -> Value {
+    if !m.plane.planar {
+        return Value::Null;
+    }
+    let machine_from_plane = m.plane.plane_from_machine.inverse();
+    let [x, y, normal] = machine_from_plane.columns;
+    json!({
+        "origin": vec3(machine_from_plane.translation),
+        "x": vec3(x),
+        "y": vec3(y),
+        "normal": vec3(normal),
+    })
+}

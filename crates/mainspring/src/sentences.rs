@@ -1,0 +1,90 @@
+//! The answer in plain words, angles in degrees.
+
+use crate::prediction::PredictionResult;
+use crate::words::{list, number};
+use mainspring_behavior::{NoPattern, Outcome, Pattern};
+use mainspring_dynamics::Closed;
+
+/// One to three sentences.
+pub fn sentences(p: &PredictionResult) -> Vec<String> {
+    match &p.outcome {
+        Outcome::Repeats { pattern, .. } => repeats(p, pattern),
+        Outcome::ComesToRest { t, held, jammed } => rests(p, *t, held, *jammed),
+        Outcome::NoPattern(reason) => vec![no_pattern(p, *reason)],
+        Outcome::Stopped => vec!["Stopped before it was known what the machine does.".into()],
+    }
+}
+
+fn repeats(p: &PredictionResult, pattern: &Pattern) -> Vec<String> {
+    let mut advancing = Vec::new();
+    let mut returning = Vec::new();
+    let slides = p.slides();
+    for (i, (name, q, _)) in p.changes(pattern).into_iter().enumerate() {
+        let tiny = 1e-6 * if slides[i] { p.run().system().size } else { 1.0 };
+        if q.abs() <= tiny.max(0.005 * travel(p, i)) {
+            returning.push(name);
+        } else if slides[i] {
+            advancing.push(format!("{name} moves by {}", signed(q, 4)));
+        } else {
+            advancing.push(format!("{name} turns by {}°", signed(q.to_degrees(), 4)));
+        }
+    }
+    let duration = number(pattern.duration, 5);
+    let mut first = format!("Repeats every {duration} s");
+    if !advancing.is_empty() {
+        first += &format!("; each time {}", list(&advancing));
+    }
+    let mut out = vec![first + "."];
+    if !returning.is_empty() {
+        let words =
+            if returning.len() == 1 { "returns to where it began" } else { "return to where they began" };
+        out.push(format!("{} {words}.", list(&returning)));
+    }
+    out
+}
+
+/// How far part `i` ranges over the simulated stretch.
+fn travel(p: &PredictionResult, i: usize) -> f64 {
+    let run = p.run();
+    let positions = run.times().iter().map(|t| run.at(*t).0[i]);
+    let (low, high) = positions.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
+    high - low
+}
+
+fn signed(x: f64, digits: usize) -> String {
+    let text = number(x, digits);
+    if x > 0.0 { format!("+{text}") } else { text }
+}
+
+fn rests(p: &PredictionResult, t: f64, held: &[Closed], jammed: bool) -> Vec<String> {
+    let mut out = vec![format!("Comes to rest after {} s.", number(t, 4))];
+    let run = p.run();
+    let system = run.system();
+    let mut pairs: Vec<String> = held
+        .iter()
+        .map(|c| {
+            let (a, b) = system.interactions[c.candidate.id.interaction as usize].bodies;
+            format!("{} against {}", system.bodies[a].name, system.bodies[b].name)
+        })
+        .collect();
+    pairs.dedup();
+    if !pairs.is_empty() {
+        let why = if jammed { "Jammed: a spring still drives it, held by " } else { "Held by " };
+        out.push(format!("{why}{}.", list(&pairs)));
+    }
+    out
+}
+
+fn no_pattern(p: &PredictionResult, reason: NoPattern) -> String {
+    let t = number(p.run().run().t, 4);
+    match reason {
+        NoPattern::ConstantKineticEnergy => {
+            "No pattern to find: the kinetic energy never changes, so the machine runs on as it is.".into()
+        }
+        NoPattern::TooManyMinima => {
+            format!("No pattern found within the bound on kinetic-energy minima ({t} s): raise --max-minima.")
+        }
+        NoPattern::TooLong => format!("No pattern found within {t} s: raise --max-time."),
+        NoPattern::StepLimit => format!("No pattern found: the bound on steps was met at {t} s."),
+    }
+}

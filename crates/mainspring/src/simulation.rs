@@ -1,0 +1,233 @@
+//! `simulate`: a run to a given time, with its dense motion.
+
+use crate::contacts::contacts_json;
+use crate::words::{by_part, clean};
+use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
+use mainspring_mechanism::{Mechanism, System};
+use mainspring_model::Error;
+use serde_json::{Map, Value, json};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What `simulate` is asked to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulationOptions {
+    /// In the file's unit of time.
+    pub until: f64,
+    /// Relative tolerance of integration and of contact times.
+    pub rtol: f64,
+    pub max_steps: u64,
+    /// Report contact forces after each event.
+    pub forces: bool,
+    /// P_range_fraction of Algorithm 12: which kinetic-energy minima are listed.
+    pub range_fraction: f64,
+}
+
+impl Default for SimulationOptions {
+    fn default() -> Self {
+        Self { until: 1.0, rtol: 1e-8, max_steps: 10_000_000, forces: false, range_fraction: 1e-5 }
+    }
+}
+
+/// A part that moves: its coordinate and its velocity over that of the coordinate.
+#[derive(Clone, Debug, PartialEq)]
+struct Mover {
+    name: String,
+    coordinate: usize,
+    ratio: f64,
+}
+
+/// A finished run with all that can be asked about it.
+#[derive(Clone, Debug)]
+pub struct SimulationResult {
+    system: Arc<System>,
+    movers: Vec<Mover>,
+    run: Run,
+    options: SimulationOptions,
+    wall_seconds: f64,
+}
+
+/// Runs a mechanism from its initial state. `progress` is told the time and may answer false.
+///
+/// # Errors
+/// What keeps a machine from being simulated: see `Mechanism::coordinates`.
+pub fn simulate(
+    mechanism: &Mechanism,
+    options: &SimulationOptions,
+    progress: &mut dyn FnMut(f64) -> bool,
+) -> Result<SimulationResult, Error> {
+    let system = Arc::new(mechanism.system()?);
+    let source = system.direct_search();
+    let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
+    let start = Instant::now();
+    let mut simulation = Simulation::new(&system, &source, limits);
+    simulation.run(progress);
+    let wall_seconds = start.elapsed().as_secs_f64();
+    let run = simulation.into_run();
+    Ok(SimulationResult::new(mechanism, system.clone(), run, options.clone(), wall_seconds))
+}
+
+impl SimulationResult {
+    pub(crate) fn new(
+        mechanism: &Mechanism,
+        system: Arc<System>,
+        run: Run,
+        options: SimulationOptions,
+        wall_seconds: f64,
+    ) -> Self {
+        let mover = |i: usize| {
+            let (coordinate, ratio) = mechanism.subsystem_of(i)?;
+            Some(Mover { name: mechanism.parts[i].name.clone(), coordinate, ratio })
+        };
+        let movers = (0..mechanism.parts.len()).filter_map(mover).collect();
+        Self { system, movers, run, options, wall_seconds }
+    }
+
+    /// Names of the moving parts, in the order of the model.
+    pub fn parts(&self) -> Vec<String> {
+        self.movers.iter().map(|m| m.name.clone()).collect()
+    }
+
+    /// How it ended.
+    pub fn status(&self) -> Status {
+        self.run.status
+    }
+
+    /// Times of steps and events.
+    pub fn times(&self) -> &[f64] {
+        &self.run.trajectory.times
+    }
+
+    /// Positions and velocities of the moving parts at time `t`, dense (just after an event at exactly `t`).
+    pub fn at(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
+        self.movers
+            .iter()
+            .map(|m| {
+                let state = self.run.trajectory.state(m.coordinate, t);
+                (state.q * m.ratio, state.v * m.ratio)
+            })
+            .unzip()
+    }
+
+    /// Values of parts from values of coordinates.
+    pub(crate) fn of_parts(&self, coordinates: &[f64]) -> Value {
+        by_part(&self.parts(), self.movers.iter().map(|m| coordinates[m.coordinate] * m.ratio))
+    }
+
+    /// Contacts closed at time `t`, with their forces there.
+    pub fn contacts_at(&self, t: f64) -> Value {
+        let n = self.system.coordinates.len();
+        let states: Vec<_> = (0..n).map(|i| self.run.trajectory.state(i, t)).collect();
+        let (q, v): (Vec<f64>, Vec<f64>) = states.iter().map(|s| (s.q, s.v)).unzip();
+        let modes = &self.run.modes;
+        let mode = modes.partition_point(|m| m.from <= t).checked_sub(1).map(|k| &modes[k]);
+        let source = self.system.direct_search();
+        let closed = mode.map_or(vec![], |m| forces_at(&self.system, &source, &m.closed, &q, &v));
+        Value::Array(contacts_json(&self.system, &closed, &q))
+    }
+
+    /// The object that `simulate --json` prints.
+    pub fn json(&self, timing: bool) -> Value {
+        let run = &self.run;
+        let minima: Vec<f64> = run
+            .minima
+            .iter()
+            .filter(|m| m.energy < self.options.range_fraction * m.top && m.t > 0.0)
+            .map(|m| m.t)
+            .collect();
+        let mut object = json!({
+            "status": status_word(run.status),
+            "advice": advice(run.status),
+            "t": run.t,
+            "positions": self.of_parts(&run.q),
+            "velocities": self.of_parts(&run.v),
+            "kinetic_energy_minima": minima,
+            "events": run.events.iter().map(|e| self.event(e)).collect::<Vec<_>>(),
+            "energy": self.energy(),
+        });
+        let entries = object.as_object_mut().expect("built as an object");
+        if self.options.forces {
+            entries.insert("forces".into(), self.forces());
+        }
+        entries.insert("stats".into(), self.stats(timing));
+        object
+    }
+
+    /// Counts of work.
+    pub fn stats(&self, timing: bool) -> Value {
+        let stats = &self.run.stats;
+        let mut counts = Map::new();
+        counts.insert("steps".into(), json!(stats.steps));
+        counts.insert("gap_evaluations".into(), json!(stats.gap_evaluations));
+        counts.insert("impacts".into(), json!(stats.impacts));
+        if timing {
+            counts.insert("wall_seconds".into(), json!(self.wall_seconds));
+        }
+        Value::Object(counts)
+    }
+
+    fn energy(&self) -> Value {
+        let e = &self.run.energy;
+        json!({
+            "initial": e.initial,
+            "final": e.last,
+            "friction": e.friction,
+            "impacts": e.impacts,
+            "kinetic_max": e.kinetic_max,
+            "residual": e.residual(),
+        })
+    }
+
+    fn event(&self, e: &Event) -> Value {
+        let name = |i: usize| self.system.bodies[i].name.clone();
+        let kind = match e.kind {
+            EventKind::Impact => "impact",
+            EventKind::Close => "close",
+            EventKind::Release => "release",
+        };
+        let together: Vec<Vec<String>> =
+            e.moving_together.iter().map(|g| g.iter().map(|&i| name(i)).collect()).collect();
+        json!({
+            "t": e.t,
+            "kind": kind,
+            "parts": [name(e.bodies.0), name(e.bodies.1)],
+            "impulse": clean(e.impulse),
+            "moving_together": together,
+        })
+    }
+
+    /// Contacts with their forces just after each instant at which something changed, and at the end.
+    fn forces(&self) -> Value {
+        let mut times: Vec<f64> = self.run.events.iter().map(|e| e.t).chain([0.0, self.run.t]).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let at = |t: &f64| json!({"t": t, "contacts": self.contacts_at(*t)});
+        Value::Array(times.iter().map(at).collect())
+    }
+
+    pub(crate) fn run(&self) -> &Run {
+        &self.run
+    }
+
+    pub(crate) fn system(&self) -> &System {
+        &self.system
+    }
+}
+
+fn status_word(status: Status) -> &'static str {
+    match status {
+        Status::Complete => "complete",
+        Status::AtRest => "at_rest",
+        Status::StepLimit => "step_limit",
+        Status::Stopped => "stopped",
+    }
+}
+
+fn advice(status: Status) -> Option<&'static str> {
+    match status {
+        Status::Complete | Status::AtRest | Status::Stopped => None,
+        Status::StepLimit => {
+            Some("the bound on steps was met: ask for a shorter time, a looser tolerance, or more steps")
+        }
+    }
+}

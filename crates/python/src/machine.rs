@@ -1,0 +1,142 @@
+//! Machine and Mechanism as Python sees them.
+
+use crate::errors::{InputError, bad_input, by_index};
+use crate::results::{PyPrediction, PyRun, watch};
+use mainspring::{
+    CompileOptions, Machine, MatchOptions, Mechanism, PredictOptions, SimulationOptions, drawing_json,
+    inspect_json, parameters_json, predict, simulate,
+};
+use pyo3::prelude::*;
+use std::path::Path;
+use std::sync::Arc;
+
+type Values = Vec<(String, f64)>;
+
+/// Read a model file and its supplement (found beside the model by name when None).
+#[pyfunction]
+#[pyo3(signature = (model, supplement = None))]
+pub fn load(py: Python<'_>, model: &str, supplement: Option<&str>) -> PyResult<PyMachine> {
+    let read = py.detach(|| Machine::load(Path::new(model), supplement.map(Path::new)));
+    Ok(PyMachine(Arc::new(read.map_err(bad_input)?)))
+}
+
+/// What a person edits: solids, parameters, springs.
+#[pyclass(name = "Machine", module = "mainspring._core", frozen)]
+pub struct PyMachine(Arc<Machine>);
+
+#[pymethods]
+impl PyMachine {
+    #[getter]
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    /// Parameters with their values and ranges, in the order of the text.
+    fn parameters_json(&self) -> String {
+        parameters_json(&self.0).to_string()
+    }
+
+    /// Evaluate the shapes with these parameters and analyse them.
+    fn compile(
+        &self,
+        py: Python<'_>,
+        set: Values,
+        pair_clearance: f64,
+        keep_axial: bool,
+    ) -> PyResult<PyMechanism> {
+        let (machine, options) = (self.0.clone(), CompileOptions { pair_clearance, keep_axial });
+        let compiled = py.detach(|| Mechanism::compile(machine, &set, &options));
+        Ok(PyMechanism(compiled.map_err(bad_input)?))
+    }
+}
+
+/// A machine at fixed parameters, analysed.
+#[pyclass(name = "Mechanism", module = "mainspring._core", frozen)]
+pub struct PyMechanism(Mechanism);
+
+impl PyMechanism {
+    fn started(&self, positions: &Values, velocities: &Values) -> PyResult<Mechanism> {
+        let positions = by_index(&self.0, positions, "--position")?;
+        let velocities = by_index(&self.0, velocities, "--velocity")?;
+        self.0.starting_at(&positions, &velocities).map_err(bad_input)
+    }
+}
+
+fn rigid(contact: &str) -> PyResult<()> {
+    if contact == "rigid" {
+        return Ok(());
+    }
+    Err(InputError::new_err(format!("--contact:1:1: error: no contact model {contact:?}, expected rigid")))
+}
+
+#[pymethods]
+impl PyMechanism {
+    /// Parts, pairs, subsystems, interactions as one object.
+    fn inspect_json(&self, py: Python<'_>) -> String {
+        py.detach(|| inspect_json(&self.0).to_string())
+    }
+
+    /// The outlines that contact is computed with.
+    fn drawing_json(&self) -> String {
+        drawing_json(&self.0).to_string()
+    }
+
+    /// Run to time `until`.
+    #[pyo3(signature = (until, *, contact = "rigid", rtol = 1e-8, positions = vec![], velocities = vec![],
+        forces = false, max_steps = None, progress = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        until: f64,
+        contact: &str,
+        rtol: f64,
+        positions: Values,
+        velocities: Values,
+        forces: bool,
+        max_steps: Option<u64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<PyRun> {
+        rigid(contact)?;
+        let mechanism = self.started(&positions, &velocities)?;
+        let mut options = SimulationOptions { until, rtol, forces, ..SimulationOptions::default() };
+        options.max_steps = max_steps.unwrap_or(options.max_steps);
+        let run = watch(py, progress, |progress| simulate(&mechanism, &options, progress))?;
+        Ok(PyRun(Arc::new(run.map_err(bad_input)?)))
+    }
+
+    /// Run until it is known what repeats.
+    #[pyo3(signature = (*, contact = "rigid", rtol = 1e-8, positions = vec![], velocities = vec![], p_confirm = 2,
+        p_range_fraction = 1e-5, p_ignore = 4, p_t_match = 0.01, p_s_v_match = 0.02, max_minima = 2000,
+        max_time = 1e5, progress = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
+    fn predict(
+        &self,
+        py: Python<'_>,
+        contact: &str,
+        rtol: f64,
+        positions: Values,
+        velocities: Values,
+        p_confirm: u32,
+        p_range_fraction: f64,
+        p_ignore: u32,
+        p_t_match: f64,
+        p_s_v_match: f64,
+        max_minima: usize,
+        max_time: f64,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<PyPrediction> {
+        rigid(contact)?;
+        let mechanism = self.started(&positions, &velocities)?;
+        let matching = MatchOptions {
+            confirm: p_confirm,
+            range_fraction: p_range_fraction,
+            ignore: p_ignore,
+            time_match: p_t_match,
+            state_match: p_s_v_match,
+        };
+        let options = PredictOptions { matching, rtol, max_minima, max_time, ..PredictOptions::default() };
+        let found = watch(py, progress, |progress| predict(&mechanism, &options, progress))?;
+        Ok(PyPrediction(Arc::new(found.map_err(bad_input)?)))
+    }
+}
