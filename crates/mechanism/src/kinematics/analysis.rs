@@ -1,6 +1,6 @@
 //! From shapes to pairs in the machine: lower pairs, gears, what the pairs forbid each other, what nothing uses.
 
-use super::axial::{self, Parts};
+use super::axial;
 use super::fits::Solid;
 use super::gears::{GearData, meshes};
 use super::lower::lower_pairs;
@@ -10,7 +10,8 @@ use super::near_miss::Miss;
 use super::pair::{Dropped, Freedom, Pair, PairKind};
 use super::patch::Scene;
 use super::plane::{self, WorkingPlane};
-use super::subsystems::holds;
+use super::reach::Parts;
+use super::subsystems::{Hold, holds};
 use mainspring_geometry::Csg;
 
 /// The shapes of all parts.
@@ -52,7 +53,9 @@ pub(crate) fn analyse(
     warnings.extend(
         too_large.iter().map(|p| plain(format!("a loop of {} parts is too large to be examined", p.len()))),
     );
-    let blocked: Vec<(usize, Freedom)> = loops.iter().flat_map(Loops::unavailable).collect();
+    // Gears that lock each other are told as such: their pairs stay what they are.
+    let linkages = loops.iter().filter(|l| !l.gears_only);
+    let blocked: Vec<(usize, Freedom)> = linkages.flat_map(Loops::unavailable).collect();
     for (index, freedom) in &blocked {
         drop_freedom(&mut pairs[*index], *freedom, true, "the other pairs of its loop forbid it".into());
     }
@@ -84,15 +87,14 @@ fn idle(
     loops: &[Loops],
 ) -> axial::Idle {
     let holds = holds(shapes.csgs.len(), frame, pairs);
-    let parts = Parts {
-        primitives: shapes.scene.primitives,
-        boxes: shapes.scene.boxes,
-        leaves: shapes.leaves,
-        holds: &holds,
-        pairs,
-        label: shapes.label,
-    };
-    axial::idle(&parts, plane.normal, loops)
+    axial::idle(&shapes.parts(&holds, pairs), plane.normal, loops, shapes.label)
+}
+
+impl Shapes<'_> {
+    pub(crate) fn parts<'a>(&'a self, holds: &'a [Option<Hold>], pairs: &'a [Pair]) -> Parts<'a> {
+        let Scene { primitives, boxes, tolerance } = *self.scene;
+        Parts { primitives, boxes, csgs: self.csgs, leaves: self.leaves, holds, pairs, tolerance }
+    }
 }
 
 fn drop_freedom(pair: &mut Pair, freedom: Freedom, blocked: bool, reason: String) {

@@ -5,10 +5,12 @@ use super::bounds::Bounds;
 use super::fits::Solid;
 use super::gears::{GearData, Member, is_internal};
 use super::lower::{RELATIVE_TOLERANCE, solid};
-use super::mechanism::{CompileOptions, Mechanism, Part};
+use super::mechanism::{CompileOptions, Mechanism, Part, Warning};
 use super::near_miss::{Miss, NearMiss};
 use super::patch::Scene;
 use super::plane::WorkingPlane;
+use super::reach::Parts;
+use super::region::without_leaves;
 use super::subsystems::{holds, subsystems};
 use super::supplement::{given, reflected};
 use super::surface::lateral;
@@ -70,9 +72,10 @@ fn assemble(
 
     let holds = holds(models.len(), frame, &pairs);
     let subsystems = subsystems(&holds, &pairs);
-    let parts = (0..models.len())
+    let parts: Vec<Part> = (0..models.len())
         .map(|i| {
-            let (outline, recipe, note) = outline(&primitives, csgs[i], &plane, &label);
+            let Section { outline, recipe, note, tilted } =
+                section(&shapes.parts(&holds, &pairs), i, &plane, &label);
             Part {
                 name: name(i),
                 is_frame: i == frame,
@@ -91,10 +94,13 @@ fn assemble(
                 outline,
                 recipe,
                 note,
+                tilted,
                 place: models[i].place,
             }
         })
         .collect();
+    let mut warnings = warnings;
+    warnings.extend(parts.iter().enumerate().filter_map(left_out));
     let near_misses = misses.iter().map(|m| near_miss(m, &name)).collect();
     let numbers = values.as_slice();
     let parameters = machine.parameters().iter().zip(numbers).map(|(p, v)| (p.name.clone(), *v)).collect();
@@ -118,7 +124,7 @@ fn assemble(
     })
 }
 
-fn leaves(csg: &Csg) -> Vec<u32> {
+pub(crate) fn leaves(csg: &Csg) -> Vec<u32> {
     let mut leaves: Vec<u32> = csg.leaves().collect();
     leaves.sort_unstable();
     leaves.dedup();
@@ -148,21 +154,45 @@ fn gear_data(
     Ok(gears)
 }
 
-/// The section in the working plane with its recipe, or why there is none.
-fn outline(
-    primitives: &[Primitive],
-    csg: &Csg,
-    plane: &WorkingPlane,
-    label: &impl Fn(u32) -> String,
-) -> (Option<Outline>, Option<OutlineRecipe>, Option<String>) {
-    match OutlineRecipe::find(primitives, csg, &plane.plane_from_machine) {
-        Ok(recipe) => (Some(recipe.evaluate(primitives, &plane.plane_from_machine)), Some(recipe), None),
+/// A part's section in the working plane, or why there is none.
+#[derive(Default)]
+struct Section {
+    outline: Option<Outline>,
+    recipe: Option<OutlineRecipe>,
+    note: Option<String>,
+    tilted: Option<u32>,
+}
+
+/// Primitives that are no prisms along the normal and out of everybody's reach are left out of the section.
+fn section(parts: &Parts<'_>, part: usize, plane: &WorkingPlane, label: &impl Fn(u32) -> String) -> Section {
+    let pose = &plane.plane_from_machine;
+    let find = |csg: &Csg| OutlineRecipe::find(parts.primitives, csg, pose);
+    let mut found = find(parts.csgs[part]);
+    let mut note = None;
+    if matches!(found, Err(OutlineError::NotPrismatic { .. })) {
+        let unreached = parts.unreached(part, plane.normal);
+        if let Some(first) = unreached.first() {
+            found = find(&without_leaves(parts.csgs[part], &unreached));
+            note = Some(format!("{} is left out of the section: nothing can reach it", label(*first)));
+        }
+    }
+    match found {
+        Ok(recipe) => {
+            let outline = Some(recipe.evaluate(parts.primitives, pose));
+            Section { outline, recipe: Some(recipe), note, tilted: None }
+        }
         Err(OutlineError::NotPrismatic { primitive, .. }) => {
             let text = format!("{} is no prism along the normal of the working plane", label(primitive));
-            (None, None, Some(text))
+            Section { note: Some(text), tilted: Some(primitive), ..Section::default() }
         }
-        Err(error) => (None, None, Some(error.to_string())),
+        Err(error) => Section { note: Some(error.to_string()), ..Section::default() },
     }
+}
+
+/// A section that leaves something out is told.
+fn left_out((i, part): (usize, &Part)) -> Option<Warning> {
+    let message = part.note.clone().filter(|_| part.outline.is_some())?;
+    Some(Warning { place: None, parts: vec![i], message: format!("{}: {message}", part.name) })
 }
 
 fn near_miss(miss: &Miss, name: &impl Fn(usize) -> String) -> NearMiss {

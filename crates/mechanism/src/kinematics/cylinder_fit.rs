@@ -109,10 +109,11 @@ fn round_events(offset: Vec3, radius: f64, circle: &Circle, breaks: &mut Vec<f64
 /// Angles in [0, 2π) with `a cos θ + b sin θ = d`, by half angles.
 fn circle_roots(a: f64, b: f64, d: f64, breaks: &mut Vec<f64>) {
     let k = a.hypot(b);
-    if k <= d.abs() {
+    if k * (1.0 + 1e-6) <= d.abs() || k == 0.0 {
         return;
     }
-    let half = 2.0 * ((k - d) / (k + d)).sqrt().atan();
+    // A wall that only touches counts: rounding must not hide the angle.
+    let half = 2.0 * ((k - d).max(0.0) / (k + d).max(f64::MIN_POSITIVE)).sqrt().atan();
     let middle = b.atan2(a);
     breaks.extend([middle - half, middle + half].map(|t| t.rem_euclid(TAU)));
 }

@@ -65,8 +65,10 @@ pub struct Part {
     /// Section in the working plane, as modelled; none if the part is no prism along its normal.
     pub outline: Option<Outline>,
     pub recipe: Option<OutlineRecipe>,
-    /// Why there is no outline.
+    /// Why there is no outline, or what it leaves out.
     pub note: Option<String>,
+    /// The primitive that keeps the part from having an outline.
+    pub tilted: Option<u32>,
     /// Where it is written, or its line in the supplement.
     pub place: Place,
 }

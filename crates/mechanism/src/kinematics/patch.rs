@@ -1,11 +1,11 @@
 //! Where two coincident surfaces meet in the finished parts.
 //!
-//! The surface is cut into cells by everything that reaches it: scan lines at the middle of every interval between
-//! events, and along each line the exact crossings with every wall. A cell counts if the material of one part lies
-//! behind the surface and that of the other ahead of it, both judged at the cell's middle.
+//! The surface is cut into cells by everything that reaches it: scan lines within every interval between events,
+//! and along each line the exact crossings with every wall. A cell counts if the material of one part lies behind
+//! the surface and that of the other ahead of it, both judged at a point within the cell.
 
 use super::bounds::Bounds;
-use super::region::{Region, Sides};
+use super::region::{Region, Sides, within};
 use mainspring_geometry::Vec3;
 
 /// A piece of surface where the parts meet.
@@ -60,7 +60,7 @@ pub(crate) fn scan(
     let mut from = breaks[0];
     for &to in breaks[1..].iter().step_by(stride).chain(breaks.last()) {
         if to - from > least_s {
-            scan_line(regions, &line(0.5 * (from + to)), (from, to), span, tolerance, &mut meeting);
+            scan_line(regions, &line(within(from, to)), (from, to), span, tolerance, &mut meeting);
             from = to;
         }
     }
@@ -87,7 +87,7 @@ fn scan_line(
         if to - from <= tolerance {
             continue;
         }
-        let middle = line.along * (0.5 * (from + to));
+        let middle = line.along * within(from, to);
         let [a, b] = [0, 1].map(|i| regions[i].sides(line.from[i] + middle, line.normal, &mut stack));
         note(&mut meeting.seen, a, b);
         if (a.is_solid() && b.is_hollow()) || (a.is_hollow() && b.is_solid()) {

@@ -5,7 +5,7 @@ use super::chain::turn;
 use super::mechanism::Mechanism;
 use super::pair::{EvidenceKind, PairKind};
 use super::start::{Envelopes, Start};
-use mainspring_geometry::{Primitive, Rigid3};
+use mainspring_geometry::{Primitive, Rigid3, Vec3};
 use mainspring_model::Error;
 
 impl Mechanism {
@@ -65,21 +65,27 @@ impl Mechanism {
                 let (a, b) = (&self.parts[i], &self.parts[j]);
                 let meshes = self.envelopes(i, j);
                 if let Some(clash) = start.clash(&a.csg, &b.csg, [&bounds[i], &bounds[j]], &meshes) {
-                    let n = super::near_miss::number;
-                    let p = clash.point;
-                    let message = format!(
-                        "{} and {} overlap at the start, near ({}, {}, {}), expected parts that at most touch",
-                        a.name,
-                        b.name,
-                        n(p.x),
-                        n(p.y),
-                        n(p.z)
-                    );
-                    return Err(self.machine.error(self.machine.parts()[j].place, message));
+                    return Err(self.clash_error(i, j, clash.point));
                 }
             }
         }
         Ok(())
+    }
+
+    /// Names the parts and the place, and why they do not mesh if they nearly do.
+    fn clash_error(&self, i: usize, j: usize, p: Vec3) -> Error {
+        let n = super::near_miss::number;
+        let near = self.near_misses.iter().find(|m| m.parts == (i, j));
+        let hint = near.map_or(String::new(), |m| format!(" (near miss: {})", m.reason));
+        let message = format!(
+            "{} and {} overlap at the start, near ({}, {}, {}), expected parts that at most touch{hint}",
+            self.parts[i].name,
+            self.parts[j].name,
+            n(p.x),
+            n(p.y),
+            n(p.z)
+        );
+        self.machine.error(self.machine.parts()[j].place, message)
     }
 
     fn envelopes(&self, i: usize, j: usize) -> Vec<Envelopes> {

@@ -67,7 +67,7 @@ fn candidates(pairs: &[Pair]) -> Vec<Vec3> {
         }
     };
     pairs.iter().filter(|p| p.kind.turns()).for_each(|p| add(p.axis.direction));
-    for pair in pairs.iter().filter(|p| p.kind.slides()) {
+    for pair in pairs.iter().filter(|p| p.kind == PairKind::Prismatic) {
         for evidence in &pair.evidence {
             if let EvidenceKind::SideFaces { normal, .. } = evidence.what {
                 add(normal);

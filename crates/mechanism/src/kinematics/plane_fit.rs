@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use super::patch::{Cell, Line, Meeting, Scene, Site, scan};
-use super::region::{Member, Region};
+use super::region::{Member, Region, within};
 use super::surface::{Face, parallel};
 use mainspring_geometry::{Shape, Vec2, Vec3};
 
@@ -49,7 +49,7 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Face, b: &Face)
         });
     let owners = [a, b].map(|f| Member::new(&scene.primitives[f.id.primitive as usize]));
     let on_faces = |c: &Cell| {
-        let p = at(0.5 * (c.s.0 + c.s.1), 0.5 * (c.t.0 + c.t.1));
+        let p = at(within(c.s.0, c.s.1), within(c.t.0, c.t.1));
         owners[0].reaches(p, 2.0 * scene.tolerance) && owners[1].reaches(p + n * gap, 2.0 * scene.tolerance)
     };
     meeting.cells.retain(on_faces);
@@ -233,9 +233,10 @@ fn crossings(a: Trace, b: Trace) -> [Option<Vec2>; 2] {
 fn on_circle(center: Vec2, radius: f64, n: Vec2, offset: f64) -> [Option<Vec2>; 2] {
     let h = offset - n.dot(center);
     let rest = radius * radius - h * h;
-    if rest <= 0.0 {
+    if rest < -1e-6 * radius * radius {
         return [None, None];
     }
-    let (foot, w) = (center + n * h, n.perp() * rest.sqrt());
+    // A line that only touches counts: rounding must not hide the point.
+    let (foot, w) = (center + n * h, n.perp() * rest.max(0.0).sqrt());
     [Some(foot + w), Some(foot - w)]
 }

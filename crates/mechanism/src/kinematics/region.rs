@@ -63,6 +63,19 @@ impl Region {
         Sides { behind: self.inside(p, -normal, stack), ahead: self.inside(p, normal, stack) }
     }
 
+    /// Is there material along `from + t d`, 0 ≤ t ≤ `length`?
+    pub(crate) fn crosses_material(&self, from: Vec3, d: Vec3, length: f64) -> bool {
+        let mut cuts = vec![0.0, length];
+        self.crossings(from, d, &mut cuts);
+        cuts.retain(|t| (0.0..=length).contains(t));
+        cuts.sort_by(f64::total_cmp);
+        let mut stack = Vec::new();
+        cuts.windows(2).any(|c| {
+            let middle = from + d * within(c[0], c[1]);
+            c[1] - c[0] > self.tolerance && self.inside(middle, d, &mut stack)
+        })
+    }
+
     /// Appends every t at which `p + t w` (unit `w`) passes a wall of a member.
     pub(crate) fn crossings(&self, p: Vec3, w: Vec3, out: &mut Vec<f64>) {
         for member in &self.members {
@@ -97,6 +110,11 @@ fn reduced(csg: &Csg, mut keep: impl FnMut(u32) -> Option<u32>) -> Csg {
         stack.push((start, left));
     }
     Csg { ops }
+}
+
+/// The expression with some leaves taken as empty.
+pub(crate) fn without_leaves(csg: &Csg, left_out: &[u32]) -> Csg {
+    reduced(csg, |i| (!left_out.contains(&i)).then_some(i))
 }
 
 /// Signed distance inside a wall (to first order), and its rate along a direction.
@@ -174,7 +192,7 @@ impl Member {
                 out.push(-slack / rate);
             }
         };
-        let (a, b, c) = match self.shape {
+        let (a, b, c, r) = match self.shape {
             Shape::Block { .. } | Shape::Wedge { .. } => {
                 let (walls, n) = self.walls(p, w);
                 walls[..n].iter().for_each(|&(slack, rate)| flat(out, slack, rate));
@@ -184,23 +202,27 @@ impl Member {
                 flat(out, q.z, e.z);
                 flat(out, height - q.z, -e.z);
                 let (a, b) = (e.x * e.x + e.y * e.y, q.x * e.x + q.y * e.y);
-                (a, b, q.x * q.x + q.y * q.y - radius * radius)
+                (a, b, q.x * q.x + q.y * q.y - radius * radius, radius)
             }
             Shape::Cone { radius, height } => {
                 flat(out, q.z, e.z);
                 let (r, k) = (radius * (1.0 - q.z / height), -radius / height * e.z);
                 let (a, b) = (e.x * e.x + e.y * e.y - k * k, q.x * e.x + q.y * e.y - r * k);
-                (a, b, q.x * q.x + q.y * q.y - r * r)
+                (a, b, q.x * q.x + q.y * q.y - r * r, radius)
             }
-            Shape::Sphere { radius } => (1.0, q.dot(e), q.dot(q) - radius * radius),
+            Shape::Sphere { radius } => (1.0, q.dot(e), q.dot(q) - radius * radius, radius),
         };
-        quadratic(a, b, c, out);
+        quadratic(a, b, c, a * r * r, out);
     }
 }
 
-/// Real roots of `a t² + 2 b t + c`.
-fn quadratic(a: f64, b: f64, c: f64, out: &mut Vec<f64>) {
+/// Real roots of `a t² + 2 b t + c`; where they nearly coincide, as for a line that touches a circle, also the point
+/// between them (found even if rounding leaves no root). `scale` is the size of the discriminant of a clear crossing.
+fn quadratic(a: f64, b: f64, c: f64, scale: f64, out: &mut Vec<f64>) {
     let disc = b * b - a * c;
+    if disc.abs() <= 1e-6 * scale.abs() && a.abs() > 1e-12 {
+        out.push(-b / a);
+    }
     if disc < 0.0 {
         return;
     }
@@ -211,4 +233,10 @@ fn quadratic(a: f64, b: f64, c: f64, out: &mut Vec<f64>) {
     if s != 0.0 {
         out.push(c / s);
     }
+}
+
+/// A place within an interval that is not its middle: shapes are often symmetric, and what touches tends to touch
+/// there.
+pub(crate) fn within(from: f64, to: f64) -> f64 {
+    from + 0.473_183_7 * (to - from)
 }

@@ -1,7 +1,7 @@
 //! Parts must not overlap at the start; they may touch, and meshing gear envelopes may overlap.
 
 use super::bounds::Bounds;
-use super::region::Region;
+use super::region::{Region, within};
 use mainspring_geometry::{Csg, CsgOp, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap};
 
 /// A point inside two parts at once, in machine coordinates.
@@ -91,7 +91,7 @@ fn along(regions: &[Region; 2], from: Vec3, w: Vec3, tolerance: f64) -> Option<C
     cuts.sort_by(f64::total_cmp);
     let mut stack = Vec::new();
     cuts.windows(2).find_map(|c| {
-        let point = from + d * (0.5 * (c[0] + c[1]));
+        let point = from + d * within(c[0], c[1]);
         let thick = c[1] - c[0] > 1e3 * tolerance;
         (thick && regions.iter().all(|r| r.inside(point, d, &mut stack))).then_some(Clash { point })
     })

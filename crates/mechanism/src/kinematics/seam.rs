@@ -1,0 +1,218 @@
+//! The seam to contact and dynamics: coordinates, bodies, and the surfaces that are no contact features.
+
+use super::bounds::Bounds;
+use super::mechanism::Mechanism;
+use super::pair::PairKind;
+use super::reach::Parts;
+use super::subsystems::{Hold, Subsystem};
+use super::surface::{parallel, perpendicular};
+use crate::interaction::{Exclusion, System};
+use crate::system::{Body, Coordinate, Joint, Motion};
+use mainspring_geometry::{Csg, Vec2};
+use mainspring_model::Error;
+
+impl Mechanism {
+    /// Everything contact and motion need.
+    ///
+    /// # Errors
+    /// As [`Mechanism::coordinates`] and [`Mechanism::bodies`].
+    pub fn system(&self) -> Result<System, Error> {
+        let (coordinates, bodies) = (self.coordinates()?, self.bodies()?);
+        Ok(System::new(coordinates, bodies, &self.exclusions(), self.size))
+    }
+
+    /// One coordinate for each subsystem, with inertia, friction and springs seen at its root.
+    ///
+    /// # Errors
+    /// What inspection allows and simulation cannot do: a part without a pair with the frame, closed chains, pairs
+    /// with two freedoms, motion that is not planar, gears that lock each other, an inertia that is not known.
+    pub fn coordinates(&self) -> Result<Vec<Coordinate>, Error> {
+        self.check_planar()?;
+        self.check_chains()?;
+        for part in (0..self.parts.len()).filter(|p| *p != self.frame) {
+            self.check_part(part)?;
+        }
+        self.subsystems.iter().map(|s| self.coordinate(s)).collect()
+    }
+
+    fn fail<T>(&self, part: usize, message: String) -> Result<T, Error> {
+        Err(self.machine.error(self.parts[part].place, message))
+    }
+
+    fn check_planar(&self) -> Result<(), Error> {
+        let n = self.plane.normal;
+        for pair in &self.pairs {
+            let d = pair.axis.direction;
+            let (turns, slides) = (pair.kind.turns(), pair.kind.slides());
+            let moving = if pair.parts.0 == self.frame { pair.parts.1 } else { pair.parts.0 };
+            let names = format!("{} and {}", self.parts[pair.parts.0].name, self.parts[pair.parts.1].name);
+            if turns && slides {
+                let message = format!(
+                    "{names} form a cylindrical pair with two freedoms, expected one (it may turn and slide)"
+                );
+                return self.fail(moving, message);
+            }
+            if (turns && !parallel(d, n)) || (slides && !perpendicular(d, n)) {
+                let message = format!(
+                    "{names} do not move in the plane in which the others move, expected planar motion"
+                );
+                return self.fail(moving, message);
+            }
+        }
+        Ok(())
+    }
+
+    fn check_chains(&self) -> Result<(), Error> {
+        let Some(chain) = self.closed_chains.first() else { return Ok(()) };
+        let names: Vec<&str> = chain.parts.iter().map(|p| self.parts[*p].name.as_str()).collect();
+        let first = chain.parts.iter().copied().find(|p| *p != self.frame).unwrap_or(self.frame);
+        let names = names.join(", ");
+        let message = if chain.gears_only {
+            format!("the gears of {names} lock each other, expected ratios that agree")
+        } else {
+            format!("{names} form a closed chain of pairs, expected an open one")
+        };
+        self.fail(first, message)
+    }
+
+    fn check_part(&self, i: usize) -> Result<(), Error> {
+        let part = &self.parts[i];
+        let (Some(joint), Some(carrier)) = (part.joint, part.carrier) else {
+            let message =
+                format!("{} has no pair with the frame, expected one it turns or slides in", part.name);
+            return self.fail(i, message);
+        };
+        if !self.stands(carrier) {
+            let message = format!(
+                "{} has no pair with the frame, only one with {}, expected one it turns or slides in",
+                part.name, self.parts[carrier].name
+            );
+            return self.fail(i, message);
+        }
+        match part.inertia {
+            None if self.pairs[joint].kind != PairKind::Fixed => {
+                let message = format!(
+                    "the inertia of {} is not known, expected a line of the supplement or a density",
+                    part.name
+                );
+                self.fail(i, message)
+            }
+            Some(inertia) if !(inertia > 0.0 && inertia.is_finite()) => {
+                self.fail(i, format!("the inertia of {} is {inertia}, expected a positive number", part.name))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Is it the frame, or fixed to it?
+    fn stands(&self, part: usize) -> bool {
+        let mut at = part;
+        for _ in 0..self.parts.len() {
+            match (self.parts[at].joint, self.parts[at].carrier) {
+                (Some(j), Some(c)) if self.pairs[j].kind == PairKind::Fixed => at = c,
+                _ => break,
+            }
+        }
+        at == self.frame
+    }
+
+    fn coordinate(&self, s: &Subsystem) -> Result<Coordinate, Error> {
+        let root = &self.parts[s.root];
+        let mut c = Coordinate {
+            name: root.name.clone(),
+            inertia: s.inertia.unwrap_or(0.0),
+            damping: 0.0,
+            stiffness: 0.0,
+            force: 0.0,
+            energy_at_zero: 0.0,
+            position: root.position,
+            velocity: root.velocity,
+        };
+        for &(part, r) in &s.parts {
+            let part = &self.parts[part];
+            c.damping += part.friction * r * r;
+            if let Some(spring) = part.spring {
+                let k = spring.constant;
+                c.stiffness += k * r * r;
+                c.force += k * r * spring.relaxed;
+                c.energy_at_zero += 0.5 * k * spring.relaxed * spring.relaxed;
+            }
+        }
+        if c.inertia > 0.0 && [c.inertia, c.stiffness, c.force, c.damping].iter().all(|x| x.is_finite()) {
+            return Ok(c);
+        }
+        self.fail(
+            s.root,
+            format!("the values of {} overflow, expected finite inertia, friction and spring", c.name),
+        )
+    }
+
+    /// The parts as contact sees them, in the working plane, in the order of [`Mechanism::parts`].
+    ///
+    /// # Errors
+    /// A part that is no prism along the working plane's normal and may touch another.
+    pub fn bodies(&self) -> Result<Vec<Body>, Error> {
+        self.check_outlines()?;
+        Ok((0..self.parts.len()).map(|i| self.body(i)).collect())
+    }
+
+    fn body(&self, i: usize) -> Body {
+        let part = &self.parts[i];
+        let outline = part.outline.clone().unwrap_or_default();
+        let (mut chain, mut at) = (Vec::new(), i);
+        for _ in 0..self.parts.len() {
+            let (Some(joint), Some(carrier)) = (self.parts[at].joint, self.parts[at].carrier) else { break };
+            if let Some((coordinate, ratio)) = self.subsystem_of(at) {
+                chain.push(Joint { coordinate, ratio, motion: self.motion(joint) });
+            }
+            at = carrier;
+        }
+        chain.reverse();
+        Body { name: part.name.clone(), chain, outline }
+    }
+
+    fn motion(&self, joint: usize) -> Motion {
+        let pair = &self.pairs[joint];
+        let plane = &self.plane.plane_from_machine;
+        if pair.kind.slides() {
+            let d = plane.rotate(pair.axis.direction);
+            return Motion::Slide { direction: Vec2::new(d.x, d.y) };
+        }
+        let c = plane.apply(pair.axis.point);
+        Motion::Turn { center: Vec2::new(c.x, c.y) }
+    }
+
+    fn check_outlines(&self) -> Result<(), Error> {
+        let boxes: Vec<Bounds> = self.primitives.iter().map(Bounds::of).collect();
+        let csgs: Vec<&Csg> = self.parts.iter().map(|p| &p.csg).collect();
+        let leaves: Vec<Vec<u32>> = csgs.iter().map(|c| super::compile::leaves(c)).collect();
+        let hold = |p: &super::mechanism::Part| Some(Hold { pair: p.joint?, carrier: p.carrier? });
+        let holds: Vec<Option<Hold>> = self.parts.iter().map(hold).collect();
+        let parts = Parts {
+            primitives: &self.primitives,
+            boxes: &boxes,
+            csgs: &csgs,
+            leaves: &leaves,
+            holds: &holds,
+            pairs: &self.pairs,
+            tolerance: self.tolerance,
+        };
+        for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.outline.is_none()) {
+            let touched = |j: &usize| *j != i && parts.may_touch(i, *j, self.plane.normal);
+            if let Some(j) = (0..self.parts.len()).find(touched) {
+                let place = part.tilted.map_or(part.place, |p| self.machine.place_of_primitive(p));
+                let why = part.note.as_deref().unwrap_or("it has no planar outline");
+                let message =
+                    format!("{} may touch {}, but {why}, expected prisms", part.name, self.parts[j].name);
+                return Err(self.machine.error(place, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Surfaces of lower pairs and gear envelopes: between the parts of the pair they are no contact features.
+    pub fn exclusions(&self) -> Vec<Exclusion> {
+        let of = |p: &super::pair::Pair| Exclusion { bodies: p.parts, curves: p.surfaces.concat() };
+        self.pairs.iter().map(of).collect()
+    }
+}
