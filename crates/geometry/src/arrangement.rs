@@ -8,7 +8,7 @@ use crate::section::Face;
 use crate::{OutlineError, Vec2};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::{PI, TAU};
 
 /// The work one outline may cost, so that hostile input ends in an error and not in a wait.
@@ -76,6 +76,9 @@ pub(crate) struct SubEdge {
     pub middle: Vec2,
 }
 
+/// A face along a sub-edge, and whether its class runs the same way as the sub-edge.
+pub(crate) type Along = (u32, bool);
+
 /// The curves of a slab and the vertices that cut them.
 #[derive(Debug)]
 pub(crate) struct Arrangement {
@@ -117,16 +120,60 @@ impl Arrangement {
     pub fn visit(
         &self,
         classes: &Classes,
-        mut visit: impl FnMut(SubEdge, &[u32]) -> Result<(), OutlineError>,
+        tolerance: &Tolerance,
+        mut visit: impl FnMut(SubEdge, &[Along]) -> Result<(), OutlineError>,
+    ) -> Result<(), OutlineError> {
+        let thin = self.thin_slivers(classes, tolerance);
+        let mut held: BTreeMap<(u32, u32), Vec<(SubEdge, Vec<Along>)>> = BTreeMap::new();
+        self.each(classes, |edge, along| match edge.ends.map(sorted).filter(|e| thin.contains(e)) {
+            Some(ends) => {
+                held.entry(ends).or_default().push((edge, along.to_vec()));
+                Ok(())
+            }
+            None => visit(edge, along),
+        })?;
+        for mut group in held.into_values() {
+            while !group.is_empty() {
+                let (edge, along) = collapse(&mut group, tolerance);
+                visit(edge, &along)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Pairs of vertices joined by sub-edges of different classes that are nowhere farther apart than the
+    /// tolerance, such as a tangent and its circle on the last stretch before they touch.
+    fn thin_slivers(&self, classes: &Classes, tolerance: &Tolerance) -> BTreeSet<(u32, u32)> {
+        let mut joins: Vec<((u32, u32), Vec2)> = Vec::new();
+        for &class in self.stretches.keys() {
+            let curve = &classes.curves[class as usize];
+            let ends = pieces(self.cuts_of(class), curve.is_circle()).into_iter();
+            joins.extend(ends.filter_map(|(e, t)| Some((sorted(e?), curve.point(t)))));
+        }
+        joins.sort_by_key(|j| j.0);
+        let thin = |group: &[((u32, u32), Vec2)]| {
+            let near = |i: usize| group[..i].iter().any(|j| tolerance.sliver(j.1, group[i].1));
+            (1..group.len()).any(near).then(|| group[0].0)
+        };
+        joins.chunk_by(|a, b| a.0 == b.0).filter_map(thin).collect()
+    }
+
+    fn cuts_of(&self, class: u32) -> &[(f64, u32)] {
+        self.cuts.get(&class).map_or(&[][..], |c| c)
+    }
+
+    /// Every sub-edge of every class on its own.
+    fn each(
+        &self,
+        classes: &Classes,
+        mut visit: impl FnMut(SubEdge, &[Along]) -> Result<(), OutlineError>,
     ) -> Result<(), OutlineError> {
         for (&class, stretches) in &self.stretches {
-            let cuts = self.cuts.get(&class).map_or(&[][..], |c| c);
             let curve = &classes.curves[class as usize];
-            let circle = matches!(curve, crate::Curve::Circle { .. });
-            let along = stretches.iter().map(|s| s.face).collect::<Vec<_>>();
+            let around: Vec<Along> = stretches.iter().map(|s| (s.face, true)).collect();
             let mut sweep = Sweep { stretches, next: 0, open: Vec::new(), faces: Vec::new() };
-            for (ends, middle) in pieces(cuts, circle) {
-                let along = if circle { &along } else { sweep.at(middle) };
+            for (ends, middle) in pieces(self.cuts_of(class), curve.is_circle()) {
+                let along = if curve.is_circle() { &around } else { sweep.at(middle) };
                 if !along.is_empty() {
                     visit(SubEdge { class, ends, middle: curve.point(middle) }, along)?;
                 }
@@ -134,6 +181,24 @@ impl Arrangement {
         }
         Ok(())
     }
+}
+
+fn sorted([a, b]: [u32; 2]) -> (u32, u32) {
+    (a.min(b), a.max(b))
+}
+
+/// Takes the first of a group and all that lie on it, as one sub-edge.
+fn collapse(group: &mut Vec<(SubEdge, Vec<Along>)>, tolerance: &Tolerance) -> (SubEdge, Vec<Along>) {
+    let (first, mut along) = group.remove(0);
+    group.retain(|(edge, faces)| {
+        let joins = edge.class != first.class && tolerance.sliver(edge.middle, first.middle);
+        if joins {
+            let same_way = edge.ends == first.ends;
+            along.extend(faces.iter().map(|&(face, way)| (face, way == same_way)));
+        }
+        !joins
+    });
+    (first, along)
 }
 
 /// The intervals between neighbouring cuts, with the parameter of their middle.
@@ -155,11 +220,11 @@ struct Sweep<'a> {
     stretches: &'a [Stretch],
     next: usize,
     open: Vec<Stretch>,
-    faces: Vec<u32>,
+    faces: Vec<Along>,
 }
 
 impl Sweep<'_> {
-    fn at(&mut self, t: f64) -> &[u32] {
+    fn at(&mut self, t: f64) -> &[Along] {
         self.open.retain(|s| s.hi > t);
         while let Some(s) = self.stretches.get(self.next).filter(|s| s.lo < t) {
             if s.hi > t {
@@ -168,7 +233,7 @@ impl Sweep<'_> {
             self.next += 1;
         }
         self.faces.clear();
-        self.faces.extend(self.open.iter().map(|s| s.face));
+        self.faces.extend(self.open.iter().map(|s| (s.face, true)));
         &self.faces
     }
 }
@@ -193,7 +258,7 @@ fn stretches(faces: &[Face], members: &[u32], classes: &Classes) -> BTreeMap<u32
 fn runs(stretches: &BTreeMap<u32, Vec<Stretch>>, classes: &Classes) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for (&class, list) in stretches {
-        let circle = matches!(classes.curves[class as usize], crate::Curve::Circle { .. });
+        let circle = classes.curves[class as usize].is_circle();
         for s in list {
             match runs.last_mut() {
                 Some(run) if run.class == class && s.lo <= run.hi => run.hi = run.hi.max(s.hi),

@@ -18,6 +18,8 @@ pub(crate) struct RawEdge {
     pub forward: bool,
     /// `None` for a whole circle.
     pub start: Option<RawCorner>,
+    /// An arc all the way round, back to the vertex where it starts.
+    pub full_turn: bool,
     /// All curves that bound somewhere along it, ascending.
     pub curves: Vec<CurveId>,
 }
@@ -201,13 +203,14 @@ impl Chainer<'_> {
     fn with_corners(&self, pieces: &[Piece]) -> RawLoop {
         if let [only] = pieces {
             let Piece { class, forward, ref curves, .. } = *only;
-            return vec![RawEdge { class, forward, start: None, curves: curves.clone() }];
+            return vec![RawEdge { class, forward, start: None, full_turn: false, curves: curves.clone() }];
         }
         let corner = |i: usize| self.corner(&pieces[(i + pieces.len() - 1) % pieces.len()], &pieces[i]);
         let edge = |(i, p): (usize, &Piece)| RawEdge {
             class: p.class,
             forward: p.forward,
             start: Some(corner(i)),
+            full_turn: p.ends[0] == p.ends[1],
             curves: p.curves.clone(),
         };
         let mut edges: RawLoop = pieces.iter().enumerate().map(edge).collect();
@@ -219,7 +222,8 @@ impl Chainer<'_> {
     fn corner(&self, before: &Piece, after: &Piece) -> RawCorner {
         let at = self.vertices[after.ends[0] as usize];
         let (low, high) = (before.class.min(after.class), before.class.max(after.class));
-        let root = self.curve(low).root_at(self.curve(high), at, 4.0 * self.tolerance.length);
+        let (a, b) = (self.curve(low), self.curve(high));
+        let root = a.root_at(b, at, a.touches(b, self.tolerance.length));
         RawCorner { at, before: before.class, root, turn: self.turn(before, after, at, root) }
     }
 
@@ -251,7 +255,7 @@ impl Chainer<'_> {
 
 fn whole(edge: &BoundaryEdge) -> RawLoop {
     let BoundaryEdge { class, forward, ref curves, .. } = *edge;
-    vec![RawEdge { class, forward, start: None, curves: curves.clone() }]
+    vec![RawEdge { class, forward, start: None, full_turn: false, curves: curves.clone() }]
 }
 
 /// The segment of a raw loop's edge, on the class's own curve.

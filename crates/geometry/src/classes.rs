@@ -17,6 +17,14 @@ pub(crate) struct Tolerance {
     pub center: Vec2,
 }
 
+impl Tolerance {
+    /// Are the middles of two sub-edges with common ends so near that nothing can lie between them? Ends
+    /// are moved by up to the tolerance onto their common vertex, hence the factor.
+    pub fn sliver(&self, a: Vec2, b: Vec2) -> bool {
+        (a - b).norm() <= 2.0 * self.length
+    }
+}
+
 /// The classes of a list of faces.
 #[derive(Debug)]
 pub(crate) struct Classes {

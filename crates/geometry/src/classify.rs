@@ -2,8 +2,8 @@
 //! just right of it. Primitives with a face along the sub-edge count by orientation, not by coordinates, so
 //! a shaft that fills its hole leaves exactly nothing.
 
-use crate::arrangement::{Arrangement, Budget};
-use crate::classes::Classes;
+use crate::arrangement::{Along, Arrangement, Budget};
+use crate::classes::{Classes, Tolerance};
 use crate::section::{Face, Section};
 use crate::tree::{Scratch, Sides, Tree};
 use crate::{Curve, CurveId, OutlineError};
@@ -27,6 +27,7 @@ pub(crate) struct Slab<'a> {
     pub faces: &'a [Face],
     pub classes: &'a Classes,
     pub tree: &'a Tree,
+    pub tolerance: &'a Tolerance,
     /// The sections that reach through the slab.
     pub sections: Vec<&'a Section>,
 }
@@ -42,8 +43,8 @@ impl Slab<'_> {
         let index = self.index();
         let (mut given, mut active) = (Vec::new(), Vec::new());
         let mut edges = Vec::new();
-        arrangement.visit(self.classes, |sub, along| {
-            self.sides_along(sub.class, along, &mut given);
+        arrangement.visit(self.classes, self.tolerance, |sub, along| {
+            self.sides_along(along, &mut given);
             let known = given.len();
             let p = sub.middle;
             for hit in index.locate_all_at_point([p.x, p.y]) {
@@ -61,8 +62,8 @@ impl Slab<'_> {
                 if let (false, Some(e)) = (sides.left, ends.as_mut()) {
                     e.reverse();
                 }
-                let curves = self.curves_of(along, &active);
-                edges.push(BoundaryEdge { class: sub.class, forward: sides.left, ends, curves });
+                let (class, same_way, curves) = self.owner(along, &active);
+                edges.push(BoundaryEdge { class, forward: sides.left == same_way, ends, curves });
             }
             Ok(())
         })?;
@@ -76,12 +77,12 @@ impl Slab<'_> {
     }
 
     /// Sides of the primitives with a face along the sub-edge, ascending by primitive.
-    fn sides_along(&self, class: u32, along: &[u32], given: &mut Vec<(u32, Sides)>) {
+    fn sides_along(&self, along: &[Along], given: &mut Vec<(u32, Sides)>) {
         given.clear();
-        let circle = matches!(self.classes.curves[class as usize], Curve::Circle { .. });
-        for &face in along {
-            let left = circle || self.classes.same_way[face as usize];
-            given.push((self.faces[face as usize].id.primitive, Sides { left, right: !left }));
+        for &(face, same_way) in along {
+            let Face { id, curve, .. } = &self.faces[face as usize];
+            let left = (curve.is_circle() || self.classes.same_way[face as usize]) == same_way;
+            given.push((id.primitive, Sides { left, right: !left }));
         }
         given.sort_unstable_by_key(|g| g.0);
         given.dedup_by(|later, kept| {
@@ -93,10 +94,18 @@ impl Slab<'_> {
         });
     }
 
-    fn curves_of(&self, along: &[u32], active: &[u32]) -> Vec<CurveId> {
-        let ids = along.iter().map(|&f| self.faces[f as usize].id);
-        let mut curves: Vec<_> = ids.filter(|id| active.binary_search(&id.primitive).is_ok()).collect();
+    /// The class of the first bounding face in the text, whether it runs the same way as the sub-edge, and
+    /// all bounding curves of this class.
+    fn owner(&self, along: &[Along], active: &[u32]) -> (u32, bool, Vec<CurveId>) {
+        let bounds = |a: &&Along| active.binary_search(&self.faces[a.0 as usize].id.primitive).is_ok();
+        let Some(&(first, same_way)) = along.iter().filter(bounds).min() else {
+            return (0, true, Vec::new());
+        };
+        let class = self.classes.of[first as usize];
+        let same_class = |a: &&Along| self.classes.of[a.0 as usize] == class;
+        let ids = along.iter().filter(bounds).filter(same_class).map(|a| self.faces[a.0 as usize].id);
+        let mut curves: Vec<_> = ids.collect();
         curves.sort_unstable();
-        curves
+        (class, same_way, curves)
     }
 }

@@ -107,6 +107,10 @@ fn circle_circle<S: Scalar>(a: Vec2<S>, r: S, b: Vec2<S>, s: S, root: Root) -> V
 }
 
 impl Curve<f64> {
+    pub(crate) fn is_circle(&self) -> bool {
+        matches!(self, Curve::Circle { .. })
+    }
+
     /// Do the curves touch within `tolerance` (a length) rather than cross?
     pub(crate) fn touches(&self, other: &Self, tolerance: f64) -> bool {
         match (*self, *other) {
@@ -138,21 +142,19 @@ impl Curve<f64> {
         })
     }
 
-    /// The root that names `point` among the common points, the nearest one.
-    pub(crate) fn root_at(&self, other: &Self, point: Vec2, tolerance: f64) -> Root {
+    /// The root that names `point` among the common points of two curves, the nearest one; `touching` if
+    /// they touch there, or if they no longer cross.
+    pub(crate) fn root_at(&self, other: &Self, point: Vec2, touching: bool) -> Root {
         if let (Curve::Line { .. }, Curve::Line { .. }) = (self, other) {
             return Root::Only;
         }
         let [minus, plus] = [Root::Minus, Root::Plus].map(|r| (self.meet(other, r) - point).norm());
-        match minus.partial_cmp(&plus) {
-            Some(order) if !self.touches(other, tolerance) => {
-                if order.is_lt() {
-                    Root::Minus
-                } else {
-                    Root::Plus
-                }
-            }
-            _ => Root::Tangent,
+        if touching || !minus.is_finite() || !plus.is_finite() {
+            Root::Tangent
+        } else if minus < plus {
+            Root::Minus
+        } else {
+            Root::Plus
         }
     }
 

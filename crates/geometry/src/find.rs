@@ -1,13 +1,13 @@
 //! Finds an outline recipe: slabs between caps, a planar boolean in each, equal neighbours joined.
 
 use crate::arrangement::{Arrangement, Budget};
-use crate::chain::{Chainer, RawEdge, RawLoop};
+use crate::chain::{Chainer, RawCorner, RawEdge, RawLoop};
 use crate::classes::{Classes, Tolerance};
 use crate::classify::Slab;
 use crate::recipe::{Corner, EdgeRecipe, LayerRecipe, LoopRecipe};
 use crate::section::{Face, Section};
 use crate::tree::{Scratch, Tree};
-use crate::{Bounds3, Csg, CurveId, OutlineError, OutlineRecipe, Primitive, Rigid3, Turn, Vec2};
+use crate::{Bounds3, Csg, CurveId, OutlineError, OutlineRecipe, Primitive, Rigid3, Root, Turn, Vec2};
 use std::collections::BTreeSet;
 
 /// What counts as coincident, relative to the part's size; the wider ones are tried where features so close
@@ -172,6 +172,7 @@ impl Finder<'_> {
             faces: &all.faces,
             classes: &all.classes,
             tree: &self.tree,
+            tolerance: &self.tolerance,
             sections: here.iter().map(|&i| &all.list[i]).collect(),
         };
         let edges = slab.boundary(&arrangement, scratch, budget)?;
@@ -197,7 +198,7 @@ impl Finder<'_> {
             let (edge, before) = (&raw[i], &raw[(i + raw.len() - 1) % raw.len()]);
             let owner = all.face(edge.curves[0]);
             let start = match edge.start {
-                Some(corner) => Some(self.finish_corner(before, edge, corner.at, all)?),
+                Some(corner) => Some(self.finish_corner(before, edge, &corner, all)?),
                 None => None,
             };
             Ok(EdgeRecipe {
@@ -205,6 +206,7 @@ impl Finder<'_> {
                 aliases: edge.curves[1..].to_vec(),
                 forward: edge.forward == all.classes.same_way[owner],
                 start,
+                full_turn: edge.full_turn,
                 turn_at_start: edge.start.map_or(Turn::Smooth, |s| s.turn),
             })
         };
@@ -216,14 +218,14 @@ impl Finder<'_> {
         &self,
         before: &RawEdge,
         after: &RawEdge,
-        at: Vec2,
+        corner: &RawCorner,
         all: &Sections,
     ) -> Result<Corner, OutlineError> {
         let mut curves = [before.curves[0], after.curves[0]];
         curves.sort_unstable();
         let [a, b] = curves.map(|id| &all.faces[all.face(id)].curve);
-        let root = a.root_at(b, at, 4.0 * self.tolerance.length);
-        let off = (a.meet(b, root) - at).norm();
+        let root = a.root_at(b, corner.at, corner.root == Root::Tangent);
+        let off = (a.meet(b, root) - corner.at).norm();
         let allowed = self.tolerance.length / self.tolerance.angle * DRIFT;
         if off <= allowed { Ok(Corner { curves, root }) } else { Err(OutlineError::Degenerate) }
     }

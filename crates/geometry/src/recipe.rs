@@ -25,6 +25,9 @@ pub struct EdgeRecipe {
     pub forward: bool,
     /// Where it starts; `None` for a whole circle.
     pub start: Option<Corner>,
+    /// An arc all the way round: it ends where it starts, though the corner there may be named by other
+    /// curves than its start.
+    pub full_turn: bool,
     pub turn_at_start: Turn,
 }
 
@@ -125,7 +128,8 @@ impl OutlineRecipe {
     /// The same layers, loops, owners, corners and turns?
     pub fn same_order(&self, other: &Self) -> bool {
         let same_edge = |a: &EdgeRecipe, b: &EdgeRecipe| {
-            (a.curve, a.forward, a.start, a.turn_at_start) == (b.curve, b.forward, b.start, b.turn_at_start)
+            (a.curve, a.forward, a.start, a.full_turn, a.turn_at_start)
+                == (b.curve, b.forward, b.start, b.full_turn, b.turn_at_start)
         };
         let same_loop = |a: &LoopRecipe, b: &LoopRecipe| {
             a.edges.len() == b.edges.len() && a.edges.iter().zip(&b.edges).all(|(a, b)| same_edge(a, b))
@@ -161,7 +165,11 @@ impl<S: Scalar> Placed<'_, S> {
     }
 
     fn walk(&self, recipe: &LoopRecipe) -> Loop<S> {
-        let corners: Vec<_> = recipe.edges.iter().map(|e| self.corner(e)).collect();
+        let mut corners: Vec<_> = recipe.edges.iter().map(|e| self.corner(e)).collect();
+        for (i, _) in recipe.edges.iter().enumerate().filter(|(_, e)| e.full_turn) {
+            let next = (i + 1) % corners.len();
+            corners[next] = corners[i];
+        }
         let edge = |(i, e): (usize, &EdgeRecipe)| {
             let curve = self.curve(e.curve);
             let segment = match (corners[i], corners[(i + 1) % corners.len()], curve) {

@@ -3,6 +3,9 @@
 use crate::{Segment, Vec2};
 use std::f64::consts::TAU;
 
+/// An arc that ends this little (radians) before its start is an arc of no length, and not a full turn.
+const ROUNDING: f64 = 1e-13;
+
 impl Segment<f64> {
     /// The angle an arc or circle sweeps (radians, positive whichever way it runs, at most a full turn; an
     /// arc that ends where it starts is a full turn); 0 for a line.
@@ -14,7 +17,11 @@ impl Segment<f64> {
                 let (a, b) = (from - center, to - center);
                 let angle = a.cross(b).atan2(a.dot(b));
                 let angle = if convex { angle } else { -angle };
-                if angle > 0.0 { angle } else { angle + TAU }
+                match angle {
+                    _ if from == to => TAU,
+                    a if a < -ROUNDING => a + TAU,
+                    a => a.max(0.0),
+                }
             }
         }
     }

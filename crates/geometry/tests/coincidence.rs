@@ -212,3 +212,26 @@ fn the_order_of_features_holds_until_it_changes() {
     let moved = recipe.evaluate(&at(2.0).primitives, &Rigid3::identity());
     assert_eq!(moved, outline(&at(2.0)));
 }
+
+#[test]
+fn a_bore_through_a_reflex_corner_runs_all_the_way_round() {
+    // Two blocks meet in a reflex corner on the bore: the arc's two ends have different names.
+    let off = f64::EPSILON;
+    let blocks = Solid::block(4.0, 4.0, 1.0).un(Solid::block(2.5, 1.5 - off, 1.0).at(-1.0, -0.5, 0.0));
+    let part = blocks.dif(Solid::cylinder(1.0, 1.0).at(0.0, 0.5, 0.0));
+    let layer = only_layer(&part);
+    assert!((layer.area() - (4.0 * 4.0 + 2.5 * 1.5 - 1.5 - 0.25 * std::f64::consts::PI)).abs() < 1e-9);
+    assert!(!layer.contains(Vec2::new(0.0, 0.5)) && layer.contains(Vec2::new(-0.7, 0.5)));
+    let arc = layer.loops[0].edges.iter().find(|e| e.curve.primitive == 2).expect("the bore");
+    assert_eq!(arc.segment.sweep(), 2.0 * std::f64::consts::PI);
+}
+
+#[test]
+fn a_tangent_that_ends_beside_the_point_of_contact() {
+    // The disc touches the side a hundred-thousandth above the block's corner, which itself lies within the
+    // tolerance of the disc: side and arc are one on that stretch.
+    let disc = Solid::cylinder(1.00002, 1.0).at(-0.50001, 1e-5, 0.0);
+    let layer = only_layer(&Solid::block(4.0, 4.0, 1.0).un(disc));
+    let area = 16.0 + std::f64::consts::PI * 0.50001 * 0.50001;
+    assert!((layer.area() - area).abs() < 1e-8, "{}", layer.area() - area);
+}
