@@ -90,7 +90,13 @@ struct Candidate {
 
 impl Series {
     /// Takes in the next point; the pattern once it is confirmed.
-    pub fn add(&mut self, point: Point, names: &[String], floors: &Floors, options: &MatchOptions) -> Option<Pattern> {
+    pub fn add(
+        &mut self,
+        point: Point,
+        names: &[String],
+        floors: &Floors,
+        options: &MatchOptions,
+    ) -> Option<Pattern> {
         self.points.push(point);
         let last = self.points.len() - 1;
         if last < options.ignore as usize || last == 0 {

@@ -25,7 +25,11 @@ fn crossing(turns: &impl Fn(f64) -> f64, level: f64, step: f64, from: f64, to: f
     let (mut a, mut b) = (from, to);
     for _ in 0..200 {
         let middle = 0.5 * (a + b);
-        if (turns(middle) - level) * step < 0.0 { a = middle } else { b = middle }
+        if (turns(middle) - level) * step < 0.0 {
+            a = middle
+        } else {
+            b = middle
+        }
         if b - a <= 4.0 * f64::EPSILON * (1.0 + b.abs()) {
             break;
         }

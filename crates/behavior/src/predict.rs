@@ -33,9 +33,17 @@ pub enum NoPattern {
 /// What the machine will do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    Repeats { pattern: Pattern, basis: Basis, start: Point },
+    Repeats {
+        pattern: Pattern,
+        basis: Basis,
+        start: Point,
+    },
     /// `held` lists the contacts that carry force; `jammed` if a spring still drives a part that they hold.
-    ComesToRest { t: f64, held: Vec<Closed>, jammed: bool },
+    ComesToRest {
+        t: f64,
+        held: Vec<Closed>,
+        jammed: bool,
+    },
     NoPattern(NoPattern),
     Stopped,
 }
