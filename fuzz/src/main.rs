@@ -1,5 +1,6 @@
 //! `cargo run --release -p mainspring-fuzz -- --inputs 1000000 --seed 1`
 //!
+//! With `--steps 2` accepted machines are compiled as well; without it only the model is tried.
 //! With `--show N` input N is printed instead. Ends with 1 if anything failed.
 
 use mainspring_fuzz::{Options, Summary, input, run};
@@ -9,7 +10,9 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match parse(&arguments) {
         Err(message) => {
-            eprintln!("{message}; expected [--inputs N] [--seed N] [--from N] [--threads N] [--show N]");
+            eprintln!(
+                "{message}; expected [--inputs N] [--seed N] [--from N] [--threads N] [--steps N] [--show N]"
+            );
             ExitCode::from(2)
         }
         Ok((options, Some(index))) => {
@@ -23,7 +26,7 @@ fn main() -> ExitCode {
 }
 
 fn parse(arguments: &[String]) -> Result<(Options, Option<u64>), String> {
-    let mut options = Options { seed: 1, from: 0, inputs: 20_000, threads: 2 };
+    let mut options = Options { seed: 1, from: 0, inputs: 20_000, threads: 2, steps: 1 };
     let mut show = None;
     for pair in arguments.chunks(2) {
         let [name, value] = pair else { return Err(format!("{} without a value", pair[0])) };
@@ -33,6 +36,7 @@ fn parse(arguments: &[String]) -> Result<(Options, Option<u64>), String> {
             "--seed" => options.seed = number,
             "--from" => options.from = number,
             "--threads" => options.threads = number,
+            "--steps" => options.steps = number as usize,
             "--show" => show = Some(number),
             _ => return Err(format!("no option {name}")),
         }

@@ -1,23 +1,36 @@
 //! What is tried with each machine that the parser accepts. Later steps of the program add a line to [`TARGETS`].
 
 use mainspring_geometry::Primitive;
+use mainspring_mechanism::{CompileOptions, Mechanism};
 use mainspring_model::{Error, Machine, Values};
 use num_dual::Dual64;
+use std::sync::Arc;
 
 /// A step of the program; `Ok` may hold the one error it reports for the input, `Err` is a broken promise.
 pub struct Target {
     pub name: &'static str,
-    pub check: fn(&Machine) -> Result<Option<Error>, String>,
+    pub check: fn(&Arc<Machine>) -> Result<Option<Error>, String>,
 }
 
 /// The steps in the order of the program's path.
-pub const TARGETS: &[Target] = &[Target { name: "model", check: model }];
+pub const TARGETS: &[Target] =
+    &[Target { name: "model", check: model }, Target { name: "compile", check: compile }];
 
 /// Values and primitives: finite, positive, and the same to the last bit over dual numbers.
-fn model(machine: &Machine) -> Result<Option<Error>, String> {
+fn model(machine: &Arc<Machine>) -> Result<Option<Error>, String> {
     match evaluate(machine) {
         Err(e) => Ok(Some(e)),
         Ok((values, primitives)) => derivatives(machine, &values, &primitives).map(|()| None),
+    }
+}
+
+/// Pairs, subsystems and outlines; the same twice.
+fn compile(machine: &Arc<Machine>) -> Result<Option<Error>, String> {
+    let once = || Mechanism::compile(machine.clone(), &[], &CompileOptions::default());
+    match (once(), once()) {
+        (Err(a), Err(b)) if a == b => Ok(Some(a)),
+        (Ok(a), Ok(b)) if format!("{:?}", a.pairs) == format!("{:?}", b.pairs) => Ok(None),
+        _ => Err("two compilations of one machine differ".to_string()),
     }
 }
 

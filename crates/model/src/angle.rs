@@ -8,7 +8,9 @@ use std::f64::consts::PI;
 const SCALE: f64 = f64::from_bits((1023 + 500) << 52); // 2^500
 
 /// `value` with its real part replaced by `real`; derivatives kept, unless `value` left the range of numbers.
+/// A negative zero becomes zero, as the sum below makes it.
 pub(crate) fn with_real<S: Scalar>(value: S, real: f64) -> S {
+    let real = real + 0.0;
     if S::NDERIV == 0 || !value.re().is_finite() || !real.is_finite() {
         return S::constant(real);
     }

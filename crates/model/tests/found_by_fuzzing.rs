@@ -56,3 +56,13 @@ fn a_nearest_name_is_sought_among_the_first_ten_thousand() {
     let message = read(text.as_bytes()).unwrap_err().to_string();
     assert!(message.starts_with("m.padl:99003:5: error: `averylongnameforadefinition99999x` is not defined"));
 }
+
+/// A quotient of −0 was −0 over numbers and 0 over dual numbers (input 146478 of seed 1).
+#[test]
+fn negative_zero_is_zero() {
+    let machine = machine("u = 3\nf = -0*u/2\ng = sin(-0*u)\nh = atan2(-0*u, 1)");
+    let dual = machine.values_with_derivative(&[], "u").unwrap().re();
+    for (a, b) in machine.values(&[]).unwrap().as_slice().iter().zip(dual.as_slice()) {
+        assert_eq!(a.to_bits(), b.to_bits());
+    }
+}
