@@ -79,6 +79,9 @@ pub(crate) struct SubEdge {
 /// A face along a sub-edge, and whether its class runs the same way as the sub-edge.
 pub(crate) type Along = (u32, bool);
 
+/// A sub-edge kept back with the faces along it.
+type Held = (SubEdge, Vec<Along>);
+
 /// The curves of a slab and the vertices that cut them.
 #[derive(Debug)]
 pub(crate) struct Arrangement {
@@ -124,7 +127,7 @@ impl Arrangement {
         mut visit: impl FnMut(SubEdge, &[Along]) -> Result<(), OutlineError>,
     ) -> Result<(), OutlineError> {
         let thin = self.thin_slivers(classes, tolerance);
-        let mut held: BTreeMap<(u32, u32), Vec<(SubEdge, Vec<Along>)>> = BTreeMap::new();
+        let mut held: BTreeMap<(u32, u32), Vec<Held>> = BTreeMap::new();
         self.each(classes, |edge, along| match edge.ends.map(sorted).filter(|e| thin.contains(e)) {
             Some(ends) => {
                 held.entry(ends).or_default().push((edge, along.to_vec()));
@@ -188,7 +191,7 @@ fn sorted([a, b]: [u32; 2]) -> (u32, u32) {
 }
 
 /// Takes the first of a group and all that lie on it, as one sub-edge.
-fn collapse(group: &mut Vec<(SubEdge, Vec<Along>)>, tolerance: &Tolerance) -> (SubEdge, Vec<Along>) {
+fn collapse(group: &mut Vec<Held>, tolerance: &Tolerance) -> Held {
     let (first, mut along) = group.remove(0);
     group.retain(|(edge, faces)| {
         let joins = edge.class != first.class && tolerance.sliver(edge.middle, first.middle);

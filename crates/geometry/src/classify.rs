@@ -6,7 +6,7 @@ use crate::arrangement::{Along, Arrangement, Budget};
 use crate::classes::{Classes, Tolerance};
 use crate::section::{Face, Section};
 use crate::tree::{Scratch, Sides, Tree};
-use crate::{Curve, CurveId, OutlineError};
+use crate::{CurveId, OutlineError};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// What counts as coincident, relative to the part's size; the wider ones are tried where features so close
 /// to the tolerance give a contradictory boundary.
-const COINCIDENT: [f64; 4] = [1e-9, 1e-8, 1e-7, 1e-6];
+const COINCIDENT: [f64; 6] = [1e-9, 3e-9, 1e-8, 3e-8, 1e-7, 1e-6];
 
 /// Positions are known to a few units in the last place of the greatest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -226,7 +226,12 @@ impl Finder<'_> {
         let [a, b] = curves.map(|id| &all.faces[all.face(id)].curve);
         let root = a.root_at(b, corner.at, corner.root == Root::Tangent);
         let off = (a.meet(b, root) - corner.at).norm();
-        let allowed = self.tolerance.length / self.tolerance.angle * DRIFT;
+        let size = self.tolerance.length / self.tolerance.angle;
+        // Near their point of contact two curves run together over about the root of size times distance.
+        let allowed = match root {
+            Root::Tangent => 4.0 * (size * self.tolerance.length).sqrt(),
+            _ => size * DRIFT,
+        };
         if off <= allowed { Ok(Corner { curves, root }) } else { Err(OutlineError::Degenerate) }
     }
 }

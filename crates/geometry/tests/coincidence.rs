@@ -235,3 +235,13 @@ fn a_tangent_that_ends_beside_the_point_of_contact() {
     let area = 16.0 + std::f64::consts::PI * 0.50001 * 0.50001;
     assert!((layer.area() - area).abs() < 1e-8, "{}", layer.area() - area);
 }
+
+#[test]
+fn a_side_that_starts_just_behind_the_point_of_contact() {
+    // The disc would touch the block's side a ten-thousandth before the side begins.
+    let disc = Solid::cylinder(2.0002, 1.0).at(0.9999, -2.0001, 0.0);
+    let layer = only_layer(&Solid::block(4.0, 4.0, 1.0).at(-2.0, -2.0, 0.0).un(disc));
+    assert_eq!(layer.loops.len(), 1);
+    let area = 16.0 + 0.5 * std::f64::consts::PI * 1.0001 * 1.0001 + 2.0 * 1.0001 * 1e-4;
+    assert!((layer.area() - area).abs() < 2e-7, "{}", layer.area() - area);
+}

@@ -7,11 +7,16 @@ use mainspring_geometry::{CsgOp, Outline, OutlineRecipe, Rigid3, Shape, Turn, Ve
 /// A block or cylinder; half of the time on a coarse grid, where coincidences abound, and sometimes a few
 /// units in the last place beside it.
 fn primitive(r: &mut Random) -> Solid {
+    primitive_near_grid(r, f64::EPSILON)
+}
+
+/// As [`primitive`], up to twice `beside` off the grid.
+fn primitive_near_grid(r: &mut Random, beside: f64) -> Solid {
     let coarse = r.below(2) == 0;
     let mut number = |low: f64, high: f64| {
         let x = r.within(low, high);
         let noise = f64::from(r.below(5) as u32) - 2.0;
-        if coarse { (2.0 * x).round() * 0.5 + noise * f64::EPSILON } else { x }
+        if coarse { (2.0 * x).round() * 0.5 + noise * beside } else { x }
     };
     let (x, y) = (number(-3.0, 3.0), number(-3.0, 3.0));
     let (w, h) = (number(0.5, 3.0).max(0.25), number(0.5, 3.0).max(0.25));
@@ -79,6 +84,34 @@ fn membership_of_the_outline_is_membership_of_the_set() {
         }
     }
     assert!(tested > 19_000 && inside > 2_000, "{inside} of {tested}");
+}
+
+/// Features that lie anywhere between rounding and plain sight of each other: around the tolerance they
+/// count as coincident or not, but the outline is always found and right beyond that distance.
+#[test]
+fn no_distance_between_features_breaks_the_outline() {
+    let mut r = Random(0x5eed_0009);
+    for exponent in 3..16 {
+        let beside = 10f64.powi(-exponent);
+        for case in 0..60 {
+            let mut part = Solid::block(4.0, 4.0, 1.0).at(-2.0, -2.0, 0.0);
+            for k in 0..8 {
+                let other = primitive_near_grid(&mut r, beside);
+                part = if k % 3 == 2 { part.dif(other) } else { part.un(other) };
+            }
+            let drawn = outline(&part);
+            for _ in 0..20 {
+                let p = Vec3::new(r.within(-4.0, 4.0), r.within(-4.0, 4.0), r.within(0.0, 1.0));
+                let depths: Vec<f64> =
+                    (0..part.primitives.len() as u32).map(|i| depth(&part, i, p)).collect();
+                if depths.iter().all(|d| d.abs() > 1e-4) {
+                    let expected = part.csg.contains(|i| depths[i as usize] < 0.0, &mut Vec::new());
+                    let found = drawn.layer_at(p.z).is_some_and(|l| l.contains(Vec2::new(p.x, p.y)));
+                    assert_eq!(found, expected, "1e-{exponent}, case {case}, {p:?}");
+                }
+            }
+        }
+    }
 }
 
 #[test]
