@@ -10,7 +10,8 @@ use crate::{Scalar, Vec2};
 pub struct CurveId {
     /// Index of the primitive in the machine.
     pub primitive: u32,
-    /// Which face: of a block 0 −x, 1 +x, 2 −y, 3 +y, 4 −z, 5 +z (local); of a cylinder 0.
+    /// Which face: of a block 0 −x, 1 +x, 2 −y, 3 +y, 4 −z, 5 +z (local); of a cylinder 0, its caps 1 (local z = 0)
+    /// and 2.
     pub face: u8,
 }
 
