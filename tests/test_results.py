@@ -17,7 +17,7 @@ def test_the_machine_tells_its_parameters():
 
 
 def test_an_unknown_parameter_is_an_input_error():
-    with pytest.raises(ms.InputError, match=r"escapement\.padl:\d+:\d+: error: .*no_such"):
+    with pytest.raises(ms.InputError, match=r"\d+:\d+: error: .*no_such"):
         ms.load(ESCAPEMENT).compile(no_such=1.0)
 
 

@@ -9,6 +9,8 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = ["InputError", "Machine", "Mechanism", "Prediction", "Run", "load"]
+
 class InputError(ValueError):
     """Bad input. `str(e)` is the whole line `FILE:LINE:COL: error: what, what was expected`."""
 

@@ -34,8 +34,10 @@ class Pair:
         None for gear pairs.
     ratio
         Turns of the second part for one turn of the first; None but for gear pairs.
+    clearance
+        Play between the surfaces, in the file's length; 0 unless `pair_clearance` allowed some.
     evidence
-        Why it was found, one sentence each.
+        Why it was found and what was decided about it, one sentence each.
     """
 
     kind: str
@@ -43,16 +45,39 @@ class Pair:
     parts: tuple[str, ...]
     axis: Axis | None
     ratio: float | None
+    clearance: float
     evidence: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Subsystem:
-    """Parts that share one freedom; `inertia` is all of theirs, reflected to the root."""
+    """Parts that share one freedom.
+
+    Attributes
+    ----------
+    root, parts
+        The part whose position and velocity are the state, and all parts.
+    ratios
+        Velocity of each part over that of the root.
+    inertia
+        Of all parts, reflected to the root; None if one is not known.
+    locked
+        Its gears contradict each other, so it cannot move.
+    """
 
     root: str
     parts: tuple[str, ...]
+    ratios: tuple[float, ...]
     inertia: float | None
+    locked: bool
+
+
+@dataclass(frozen=True)
+class ClosedChain:
+    """Parts in loops of pairs, and how many independent motions these leave."""
+
+    parts: tuple[str, ...]
+    mobility: int
 
 
 @dataclass(frozen=True)
@@ -74,6 +99,8 @@ class Kinematics(Result):
     state_variables: tuple[str, ...]
     interactions: tuple[tuple[str, ...], ...]
     near_misses: tuple[NearMiss, ...]
+    closed_chains: tuple[ClosedChain, ...]
+    mobility: int
     warnings: tuple[str, ...]
     units: Mapping[str, Any]
 
@@ -84,17 +111,22 @@ class Kinematics(Result):
         )
 
 
-def _texts(value: str | Iterable[str] | None) -> tuple[str, ...]:
-    if not value:
-        return ()
-    return (value,) if isinstance(value, str) else tuple(value)
-
-
 def _pair(p: dict[str, Any]) -> Pair:
-    axis = p.get("axis")
+    axis = p["axis"]
     line = Axis(tuple(axis["point"]), tuple(axis["direction"])) if axis else None
-    parts, evidence = tuple(p["parts"]), _texts(p["evidence"])
-    return Pair(p["kind"], p["shape_kind"], parts, line, p.get("ratio"), evidence)
+    return Pair(
+        p["kind"],
+        p["shape_kind"],
+        tuple(p["parts"]),
+        line,
+        p["ratio"],
+        p["clearance"],
+        tuple(p["evidence"]),
+    )
+
+
+def _subsystem(s: dict[str, Any]) -> Subsystem:
+    return Subsystem(s["root"], tuple(s["parts"]), tuple(s["ratios"]), s["inertia"], s["locked"])
 
 
 def find_pairs(mechanism: Mechanism) -> Kinematics:
@@ -118,10 +150,12 @@ def find_pairs(mechanism: Mechanism) -> Kinematics:
         parts=tuple(o["parts"]),
         frame=o["frame"],
         pairs=tuple(_pair(p) for p in o["pairs"]),
-        subsystems=tuple(Subsystem(s["root"], tuple(s["parts"]), s["inertia"]) for s in o["subsystems"]),
+        subsystems=tuple(_subsystem(s) for s in o["subsystems"]),
         state_variables=tuple(o["state_variables"]),
         interactions=tuple(tuple(i) for i in o["interactions"]),
         near_misses=tuple(NearMiss(tuple(n["parts"]), n["why"]) for n in o["near_misses"]),
+        closed_chains=tuple(ClosedChain(tuple(c["parts"]), c["mobility"]) for c in o["closed_chains"]),
+        mobility=o["mobility"],
         warnings=tuple(o["warnings"]),
         units=frozen(o["units"]),
     )

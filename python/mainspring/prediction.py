@@ -16,12 +16,14 @@ MAX_TIME = 100_000.0
 class Pattern:
     """What repeats: `minima` M, `duration` D, `change` of every coordinate by part.
 
-    `change[part]` has `position` and `velocity`, in radians or the file's length.
+    `change[part]` has `position` and `velocity`, in radians or the file's length. `basis` tells which
+    points of the motion were compared: `kinetic_energy_minima`, `prominent_minima` or `whole_turns`.
     """
 
     minima: int
     duration: float
     change: Mapping[str, Mapping[str, float]]
+    basis: str
 
 
 @dataclass(frozen=True)
@@ -40,10 +42,14 @@ class Prediction(Result):
 
     Attributes
     ----------
+    reason
+        Why there is no pattern: `constant_kinetic_energy`, `max_minima`, `max_time`, `step_limit`; else None.
     pattern
         None unless it repeats.
     starts
-        Where the pattern (or the rest) starts: `t`, `positions`, `velocities`.
+        Where the last instance of the pattern, or the rest, starts: `t`, `positions`, `velocities`.
+    rest
+        If it comes to rest: `t`, `jammed` (a spring still drives it), `held_by` (contacts); else None.
     simulated_seconds
         How much of the motion had to be simulated to know.
     hypotheses
@@ -54,8 +60,10 @@ class Prediction(Result):
         The simulated stretch that the answer rests on.
     """
 
+    reason: str | None
     pattern: Pattern | None
     starts: Mapping[str, Any] | None
+    rest: Mapping[str, Any] | None
     simulated_seconds: float
     hypotheses: tuple[Hypothesis, ...]
     sentences: tuple[str, ...]
@@ -68,7 +76,8 @@ class Prediction(Result):
 def _pattern(o: dict[str, Any] | None) -> Pattern | None:
     if not o:
         return None
-    return Pattern(o["minima"], o["duration"], frozen({k: frozen(v) for k, v in o["change"].items()}))
+    change = frozen({part: frozen(values) for part, values in o["change"].items()})
+    return Pattern(o["minima"], o["duration"], change, o["basis"])
 
 
 def predict(
@@ -129,10 +138,12 @@ def predict(
     simulation = result_of(core.run())
     return Prediction(
         status=o["status"],
-        stats=simulation.stats,
+        stats=frozen(o["stats"]),
         _text=text,
+        reason=o["reason"],
         pattern=_pattern(o["pattern"]),
         starts=frozen(o["starts"]) if o["starts"] else None,
+        rest=frozen(o["rest"]) if o["rest"] else None,
         simulated_seconds=o["simulated_seconds"],
         hypotheses=tuple(Hypothesis(h["minima"], h["formed"], h["fell"], h["why"]) for h in o["hypotheses"]),
         sentences=tuple(o["sentences"]),

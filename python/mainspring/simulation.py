@@ -73,7 +73,7 @@ class Event:
     kind: str
     parts: tuple[str, ...]
     impulse: float | None
-    moving_together: tuple[Any, ...]
+    moving_together: tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -97,20 +97,27 @@ class Simulation(Result):
 
     Attributes
     ----------
+    advice
+        What to do when it ended early; else None.
     t
         Where it ended.
     positions, velocities
         The state there, by part; radians or the file's length.
     kinetic_energy_minima
         Times of the minima that Algorithm 12 of Gelsey 1995 would count.
+    forces
+        When asked for: for each instant at which something changed, `t` and `contacts` just after it,
+        as `Trajectory.contacts` gives them; else None.
     """
 
+    advice: str | None
     t: float
     positions: Mapping[str, float]
     velocities: Mapping[str, float]
     kinetic_energy_minima: tuple[float, ...]
     events: tuple[Event, ...]
     energy: Energy
+    forces: tuple[Mapping[str, Any], ...] | None
     trajectory: Trajectory
 
     def _sentences(self) -> Iterable[str]:
@@ -137,12 +144,14 @@ def result_of(run: _core.Run) -> Simulation:
         status=o["status"],
         stats=frozen(o["stats"]),
         _text=text,
+        advice=o["advice"],
         t=o["t"],
         positions=frozen(o["positions"]),
         velocities=frozen(o["velocities"]),
         kinetic_energy_minima=tuple(o["kinetic_energy_minima"]),
         events=tuple(events),
         energy=Energy(**o["energy"]),
+        forces=tuple(frozen(f) for f in o["forces"]) if "forces" in o else None,
         trajectory=Trajectory(tuple(run.parts), t, q, v, run),
     )
 
