@@ -54,7 +54,7 @@ def lengths(low: float, high: float, most: int = 4) -> Axis:
     return Axis(low, high, marks)
 
 
-def angles(low: float, high: float, most: int = 4) -> Axis:
+def angles(low: float, high: float, most: int = 5) -> Axis:
     """Return an axis of radians marked in degrees; small motions get room so that noise stays small."""
     low, high = _spread(low, high)
     span = math.degrees(high - low)
