@@ -1,4 +1,4 @@
-"""Draw the pictures of README and documentation: the shipped escapement and its motion."""
+"""Draw the pictures of README, documentation and examples: the shipped machines and the escapement's motion."""
 
 from pathlib import Path
 
@@ -9,13 +9,21 @@ from mainspring.report import motion_picture
 ROOT = Path(__file__).resolve().parent.parent
 
 
+def machine_picture(model: Path) -> str:
+    """Return the drawing of a model, titled with the first line of its README."""
+    title = (model.parent / "README.md").read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
+    return draw(ms.load(model).compile().outlines(), title=title) + "\n"
+
+
 def main() -> None:
-    """Write escapement.svg and escapement-motion.svg."""
-    mechanism = ms.load(ROOT / "examples" / "escapement" / "escapement.padl").compile()
+    """Write NAME.svg beside every model, and the two pictures of the README."""
+    for model in sorted((ROOT / "examples").glob("*/*.padl")):
+        model.with_suffix(".svg").write_text(machine_picture(model), encoding="utf-8")
+    escapement = ROOT / "examples" / "escapement" / "escapement.padl"
+    mechanism = ms.load(escapement).compile()
     folder = ROOT / "docs" / "pictures"
     folder.mkdir(parents=True, exist_ok=True)
-    drawing = draw(mechanism.outlines(), title="The escapement of Gelsey 1995, Fig. 12")
-    (folder / "escapement.svg").write_text(drawing + "\n", encoding="utf-8")
+    (folder / "escapement.svg").write_text(machine_picture(escapement), encoding="utf-8")
     motion = motion_picture(mechanism, ms.predict(mechanism))
     (folder / "escapement-motion.svg").write_text(motion + "\n", encoding="utf-8")
 

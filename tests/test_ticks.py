@@ -17,7 +17,7 @@ def test_marks_are_few_and_inside(span, offset):
 
 def test_angles_are_multiples_people_use():
     axis = ticks.angles(-math.pi / 2, math.pi / 2)
-    assert [text for _, text in axis.marks] == ["−90°", "0°", "90°"]
+    assert [text for _, text in axis.marks] == ["−90°", "−45°", "0°", "45°", "90°"]
 
 
 @pytest.mark.parametrize(("end", "unit"), [(37.0, "s"), (600.0, "min"), (20_000.0, "h"), (1e6, "d")])

@@ -47,12 +47,22 @@ def sentences(found: Kinematics) -> list[str]:
         if pair.kind in _MOVES and len(moving) == 1:
             by_kind.setdefault(pair.kind, []).append(moving[0])
     said = [f"{listed(names)} {_verb(kind, names)}." for kind, names in by_kind.items()]
+    said += [f"{b} turns on {a}." for a, b in _carried(found)]
+    chains = [
+        f"{listed(list(c.parts))} form a closed chain, mobility {c.mobility}." for c in found.closed_chains
+    ]
+    said += chains
     gears = [" and ".join(p.parts) for p in found.pairs if p.kind == "gear"]
     said += [f"{listed(gears)} mesh as gears."] if gears else []
     touching = listed(["–".join(i) for i in found.interactions])
     said.append(f"Can ever touch: {touching}." if touching else "No parts can ever touch.")
     said.append(f"State: {len(found.state_variables)} variables.")
     return said
+
+
+def _carried(found: Kinematics) -> list[tuple[str, ...]]:
+    """Return the moving parts that turn on other moving parts."""
+    return [p.parts for p in found.pairs if p.kind == "revolute" and found.frame not in p.parts]
 
 
 def _verb(kind: str, names: list[str]) -> str:

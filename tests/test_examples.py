@@ -1,0 +1,51 @@
+"""Every shipped machine reproduces the numbers beside it, each with its source."""
+
+import json
+import tomllib
+
+import pytest
+from conftest import ROOT
+
+import mainspring as ms
+
+FOLDERS = sorted(p.parent for p in (ROOT / "examples").glob("*/expected.toml"))
+EXPECTED = [
+    pytest.param(folder, case, id=f"{folder.name}-{case['command']}-{'.'.join(map(str, case['path']))}")
+    for folder in FOLDERS
+    for case in tomllib.loads((folder / "expected.toml").read_text(encoding="utf-8"))["expect"]
+]
+_answers: dict[tuple, dict] = {}
+
+
+def _answer(folder, case) -> dict:
+    key = (folder.name, case["command"], case.get("until"))
+    if key not in _answers:
+        mechanism = ms.load(folder / f"{folder.name}.padl").compile()
+        made = {
+            "inspect": lambda: ms.find_pairs(mechanism),
+            "simulate": lambda: ms.simulate(mechanism, case["until"]),
+            "predict": lambda: ms.predict(mechanism),
+        }[case["command"]]()
+        _answers[key] = json.loads(made.to_json())
+    return _answers[key]
+
+
+@pytest.mark.parametrize(("folder", "case"), EXPECTED)
+def test_expected(folder, case):
+    found = _answer(folder, case)
+    for step in case["path"]:
+        found = found[step]
+    assert case["source"]
+    if "length" in case:
+        assert len(found) == case["length"]
+    elif "tolerance" in case:
+        assert found == pytest.approx(case["value"], abs=case["tolerance"])
+    else:
+        assert found == case["value"]
+
+
+def test_every_machine_says_what_it_is_and_must_do():
+    for folder in sorted(p for p in (ROOT / "examples").iterdir() if p.is_dir()):
+        assert (folder / "README.md").read_text(encoding="utf-8").startswith("# ")
+        assert folder in FOLDERS
+        assert (folder / f"{folder.name}.svg").exists()
