@@ -1,4 +1,4 @@
-"""Draw the pictures of README, documentation and examples: the shipped machines and the escapement's motion."""
+"""Draw the pictures of README, documentation and examples: shipped machines, and the motion of one."""
 
 from pathlib import Path
 

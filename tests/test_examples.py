@@ -4,9 +4,9 @@ import json
 import tomllib
 
 import pytest
-from conftest import ROOT
 
 import mainspring as ms
+from conftest import ROOT
 
 FOLDERS = sorted(p.parent for p in (ROOT / "examples").glob("*/expected.toml"))
 EXPECTED = [

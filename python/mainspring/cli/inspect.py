@@ -29,7 +29,7 @@ def run(options: Namespace) -> None:
 
 def account(mechanism: "ms.Mechanism", found: Kinematics) -> None:
     """Say the analysis in sentences, then in tables."""
-    print(f"{mechanism.name}: " + " ".join(sentences(found)))
+    print(f"{mechanism.name}: " + "\n".join(sentences(found)))
     tables.show("pairs", ("parts", "kind", "axis through", "along"), map(_pair_row, found.pairs))
     reasons = ((" – ".join(p.parts), "; ".join(p.evidence)) for p in found.pairs)
     tables.show("why they are pairs", ("parts", "evidence"), reasons)
