@@ -54,6 +54,14 @@ def frozen(values: Mapping[str, Any]) -> Mapping[str, Any]:
     return MappingProxyType(dict(values))
 
 
+def counted(lines: Iterable[str]) -> list[str]:
+    """Return each different line once, in order, and how often it came."""
+    times: dict[str, int] = {}
+    for line in lines:
+        times[line] = times.get(line, 0) + 1
+    return [line if n == 1 else f"{line} ({n} times)" for line, n in times.items()]
+
+
 def pairs_of(values: Mapping[str, float] | None) -> list[tuple[str, float]]:
     """Return names and numbers as the core takes them."""
     return [(name, float(value)) for name, value in (values or {}).items()]

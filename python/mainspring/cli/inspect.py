@@ -6,6 +6,7 @@ from pathlib import Path
 import mainspring as ms
 from mainspring.cli import opening, output, tables
 from mainspring.pairs import Axis, Kinematics, Pair
+from mainspring.result import counted
 
 _MOVES = {"revolute": "turns", "prismatic": "slides", "cylindrical": "turns and slides"}
 
@@ -31,7 +32,7 @@ def account(mechanism: "ms.Mechanism", found: Kinematics) -> None:
     """Say the analysis in sentences, then in tables."""
     print(f"{mechanism.name}: " + "\n".join(sentences(found)))
     tables.show("pairs", ("parts", "kind", "axis through", "along"), map(_pair_row, found.pairs))
-    reasons = ((" – ".join(p.parts), "; ".join(p.evidence)) for p in found.pairs)
+    reasons = ((" – ".join(p.parts), "; ".join(counted(p.evidence))) for p in found.pairs)
     tables.show("why they are pairs", ("parts", "evidence"), reasons)
     rows = ((s.root, ", ".join(s.parts), _inertia(s.inertia)) for s in found.subsystems)
     tables.show("subsystems", ("root", "parts", "inertia"), rows, numeric=(2,))

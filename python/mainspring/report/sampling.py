@@ -15,6 +15,8 @@ Floats = NDArray[np.float64]
 _FRAMES_PER_SECOND = 60.0
 _MOST_NUMBERS = 12_000
 _MOST_EVENTS = 1_500
+_FEWEST_MOMENTS = 400
+_JUST_BEFORE = 1e-7  # of the run: shows what a blow takes as a step and not as a slope
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,8 @@ def loop_of(result: Simulation | Prediction) -> tuple[float, float] | None:
 
 def _moments(run: Simulation, loop: tuple[float, float] | None) -> Floats:
     budget = _MOST_NUMBERS // max(1, len(run.trajectory.parts))
-    even = np.linspace(0.0, run.t, min(budget // 2, math.ceil(run.t * _FRAMES_PER_SECOND)) + 2)
+    count = max(_FEWEST_MOMENTS, math.ceil(run.t * _FRAMES_PER_SECOND))
+    even = np.linspace(0.0, run.t, min(budget // 2, count) + 2)
     pieces = [even]
     if loop:
         count = min(budget // 2, math.ceil((loop[1] - loop[0]) * _FRAMES_PER_SECOND))
@@ -57,7 +60,7 @@ def _moments(run: Simulation, loop: tuple[float, float] | None) -> Floats:
     events = np.array([e.t for e in run.events][:_MOST_EVENTS])
     minima = np.array(run.kinetic_energy_minima[:_MOST_EVENTS])
     near = np.array([-1e-2, -2e-3, -3e-4, 0.0, 3e-4, 2e-3, 1e-2])
-    pieces += [events, (minima[:, None] + near).ravel()]
+    pieces += [events, events - _JUST_BEFORE * run.t, (minima[:, None] + near).ravel()]
     return np.unique(np.clip(np.concatenate(pieces), 0.0, run.t))
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from mainspring.pairs import Axis, Kinematics, Pair
 from mainspring.prediction import Hypothesis, Prediction
 from mainspring.report.words import coloured, escape, figure, name, table
+from mainspring.result import counted
 from mainspring.simulation import Simulation
 
 Colour = Mapping[str, str]
@@ -41,7 +42,7 @@ def _pair_row(pair: Pair, colour: Colour) -> tuple[str, str, str, str]:
     if pair.shape_kind != pair.kind:
         kind += f"<br><small>by shape {escape(pair.shape_kind)}</small>"
     where = _axis(pair.axis) if pair.ratio is None else f"ratio {figure(pair.ratio)}"
-    why = "".join(f"<li>{escape(e)}</li>" for e in pair.evidence)
+    why = "".join(f"<li>{escape(e)}</li>" for e in counted(pair.evidence))
     return _names(pair.parts, colour), kind, where, f"<ul>{why}</ul>"
 
 
@@ -122,9 +123,11 @@ def warnings(found: Kinematics) -> str:
 def colophon(found: Kinematics, run: Simulation) -> str:
     """Say how the page was made: work counted, units, sources."""
     counts = ", ".join(f"{escape(k.replace('_', ' '))} {escape(v)}" for k, v in run.stats.items())
-    units = ", ".join(f"{escape(k)}: {escape(v)}" for k, v in found.units.items() if v)
+    named = ", ".join(f"{escape(k)} {escape(v)}" for k, v in found.units.items() if v and k != "angle")
+    units = f"Units: {named}" if named else "Lengths, masses and times are in the file's own units"
     return (
-        f"<footer><p>Rigid contact, {figure(run.t)} s simulated: {counts}. Units: {units}.</p>"
+        f"<footer><p>Rigid contact, {figure(run.t)} s simulated: {counts}. "
+        f"{units}; angles in degrees.</p>"
         "<p>Method: A. Gelsey, Automated reasoning about machines, Artificial Intelligence 74 (1995) 1–53, "
         "with corrections. Made by Mainspring; the outlines drawn are those the contacts were "
         "computed with.</p></footer>"
