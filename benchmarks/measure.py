@@ -9,7 +9,7 @@ import numpy as np
 import with_mainspring
 from motion import period, reversals, ticks
 
-RUNS = 11
+RUNS = 31
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 Each peer runs at the largest step below which every tested step ticks. Its clock counts its own
 stepping only: MuJoCo's rollout in C, pymunk's `step` called from Python; Mainspring's counts the
 integration alone, each time in a fresh process. Periods are compared with each engine's own limit at
-a fine step or tolerance, because contacts differ: soft in the peers, rigid in Mainspring.
+a fine step or tolerance, because contacts differ: soft in the peers, rigid in Mainspring. The ratio is
+that of the fastest runs, which other work on the machine disturbs least; its load is told beside it.
 
 Prints a table; writes results/escapement.json and results/escapement.md.
 """
@@ -22,6 +23,7 @@ from measure import RUNS, Row, mainspring, stepped
 from scene import UNTIL
 
 RESULTS = Path(__file__).resolve().parent / "results"
+Machine = dict[str, str | int | float | None]
 HEAD = (
     "engine",
     "setting",
@@ -45,7 +47,7 @@ def processor() -> str:
     return names[0] if names else platform.machine()
 
 
-def machine() -> dict[str, str | int | None]:
+def machine() -> Machine:
     """Return what the times depend on; no name of the host."""
     return {
         "processor": processor(),
@@ -53,6 +55,7 @@ def machine() -> dict[str, str | int | None]:
         "system": f"{platform.system()} {platform.machine()}",
         "python": platform.python_version(),
         "numpy": np.__version__,
+        "load": round(os.getloadavg()[0], 1),
     }
 
 
@@ -65,7 +68,7 @@ def cells(row: Row, base: Row) -> tuple[str, ...]:
         f"{row.steps}",
         f"{row.median * 1e3:.3f}",
         f"{row.fastest * 1e3:.3f}",
-        f"{row.median / base.median:.1f}",
+        f"{row.fastest / base.fastest:.1f}",
         f"{row.period:.6f}",
         f"{row.error:.1e}",
     )
@@ -80,10 +83,9 @@ def table(rows: list[Row]) -> str:
     return "\n".join([text[0], rule, *text[1:]])
 
 
-def write(rows: list[Row], text: str) -> None:
+def write(rows: list[Row], text: str, where: Machine) -> None:
     """Write both files, whole."""
-    where = machine()
-    found = [asdict(row) | {"error": row.error, "ratio": row.median / rows[0].median} for row in rows]
+    found = [asdict(row) | {"error": row.error, "ratio": row.fastest / rows[0].fastest} for row in rows]
     RESULTS.mkdir(exist_ok=True)
     data = json.dumps({"until": UNTIL, "runs": RUNS, "machine": where, "rows": found}, indent=2)
     (RESULTS / "escapement.json").write_text(data + "\n", encoding="utf-8")
@@ -95,9 +97,10 @@ def write(rows: list[Row], text: str) -> None:
 
 def main() -> None:
     """Measure, print, write."""
+    where = machine()
     rows = [mainspring(), stepped(with_mujoco), stepped(with_pymunk)]
     text = table(rows)
-    write(rows, text)
+    write(rows, text, where)
     print(f"{UNTIL:g} s of the escapement, one thread, median of {RUNS} runs\n\n{text}")
     evaluations = rows[0].gap_evaluations
     print(f"\nMainspring evaluated {evaluations} gaps. Written: benchmarks/results/escapement.json and .md")
