@@ -41,8 +41,14 @@ check: build ## format, lint, types, layers, links
 demo: build ## the escapement, from its shapes to what it will do; writes mainspring-demo/report.html
 	$(VENV)/bin/mainspring demo
 
-bench: build ## time the escapement on one thread
+benchmarks/$(VENV)/ready: benchmarks/requirements.txt
+	$(PYTHON) -m venv benchmarks/$(VENV)
+	benchmarks/$(VENV)/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
+	touch $@
+
+bench: build benchmarks/$(VENV)/ready ## time the escapement on one thread, alone and beside MuJoCo and pymunk
 	$(PY) benchmarks/escapement.py
+	benchmarks/$(VENV)/bin/python benchmarks/run.py
 
 docs: build ## check the documentation: links, keys, pages without a way to them
 	$(PY) scripts/check_docs.py
