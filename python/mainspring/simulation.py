@@ -91,6 +91,14 @@ class Energy:
     residual: float
 
 
+_ENDED = {
+    "complete": "Ran for {} s.",
+    "at_rest": "Came to rest after {} s and stays there.",
+    "step_limit": "Met the limit of steps after {} s.",
+    "stopped": "Was stopped after {} s.",
+}
+
+
 @dataclass(frozen=True)
 class Simulation(Result):
     """A simulated stretch; `status` is `complete`, `at_rest`, `step_limit` or `stopped`.
@@ -121,9 +129,12 @@ class Simulation(Result):
     trajectory: Trajectory
 
     def _sentences(self) -> Iterable[str]:
-        word = self.status.replace("_", " ")
-        yield f"Simulated to {self.t:.6g} s ({word}): {len(self.events)} contact events."
-        yield f"Energy closes to {abs(self.energy.residual):.1e}."
+        yield _ENDED.get(self.status, self.status).format(f"{self.t:.6g}")
+        blows = sum(e.kind == "impact" for e in self.events)
+        yield (
+            f"{blows} impacts, {len(self.events) - blows} contact changes; "
+            f"the energy account closes to {abs(self.energy.residual):.0e}."
+        )
 
     def to_json(self, *, timing: bool = False) -> str:
         """Return the JSON object of `mainspring simulate --json`; `timing` adds the seconds it took."""

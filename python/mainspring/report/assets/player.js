@@ -105,7 +105,9 @@
   }
 
   const wanted = film.loop ? film.loop[1] - film.loop[0] : end;
-  const base = wanted >= 2 && wanted <= 40 ? 1 : Math.pow(2, Math.round(Math.log2(Math.max(1e-9, wanted / 8))));
+  // Real time where that is watchable; else a pattern in about 8 s, a long run in about a minute.
+  const seconds = film.loop ? 8 : Math.max(8, Math.min(60, wanted));
+  const base = wanted >= 2 && wanted <= 40 ? 1 : Math.pow(2, Math.round(Math.log2(Math.max(1e-9, wanted / seconds))));
   const rates = [1 / 16, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16].map((r) => r * base);
   const spoken = (r) => (r >= 1 ? String(+r.toPrecision(3)) : "1/" + +(1 / r).toPrecision(3)) + "×";
   $("speed").innerHTML = rates.map((r, i) => `<option value="${r}"${i === 4 ? " selected" : ""}>${spoken(r)}</option>`).join("");
