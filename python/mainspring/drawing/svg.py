@@ -187,14 +187,15 @@ def picture(
     extra
         More elements, drawn on top in the machine's coordinates (y up).
     style
-        CSS to carry inside, for a file of its own.
+        CSS to carry inside, for a file of its own; without it the element belongs into a page.
     """
     parts, q = outlines["parts"], at or {}
     box = frame_box(outlines, [*poses, q])
     inside = _bodies(parts, q) + _gears(parts, q) + _springs(outlines, q) + _axes(parts, outlines["size"])
     css = f"<style>{style}</style>" if style else ""
+    space = 'xmlns="http://www.w3.org/2000/svg" ' if style else ""
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" class="machine" viewBox="{box.view}" role="img" '
+        f'<svg {space}class="machine" viewBox="{box.view}" role="img" '
         f'style="aspect-ratio:{number(box.aspect)}"><title>{html.escape(title)}</title>'
         f"<desc>{html.escape(described(outlines))}</desc>{css}"
         f'<g transform="scale(1 -1)">{inside}{extra}</g></svg>'
