@@ -48,6 +48,7 @@ pub(crate) fn analyse(
     pairs.extend(meshes.pairs);
     misses.extend(meshes.misses);
     let mut warnings: Vec<Warning> = meshes.warnings.into_iter().map(plain).collect();
+    warnings.extend(lower.cut_short.iter().map(cut_short));
 
     let (loops, too_large) = loops(parts, frame, &pairs, size);
     warnings.extend(
@@ -73,6 +74,11 @@ pub(crate) fn analyse(
     let mobility = mobility(&pairs, &loops, &left_out);
     let plane = WorkingPlane { planar: plane::is_planar(&pairs, plane.normal), ..plane };
     Found { pairs, misses, plane, closed_chains, mobility, warnings }
+}
+
+fn cut_short(parts: &(usize, usize)) -> Warning {
+    let message = "these parts have too many faces against each other: only the first were examined".into();
+    Warning { place: None, parts: vec![parts.0, parts.1], message }
 }
 
 fn plain(message: String) -> Warning {

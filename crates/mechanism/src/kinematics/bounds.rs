@@ -66,6 +66,34 @@ impl Bounds {
             && o.low.z <= self.high.z
     }
 
+    /// Is the point within `margin` of the box?
+    pub(crate) fn holds(&self, p: Vec3, margin: f64) -> bool {
+        p.x >= self.low.x - margin
+            && p.x <= self.high.x + margin
+            && p.y >= self.low.y - margin
+            && p.y <= self.high.y + margin
+            && p.z >= self.low.z - margin
+            && p.z <= self.high.z + margin
+    }
+
+    /// Does the line `p + t w` come within `margin` of the box?
+    pub(crate) fn meets_line(&self, p: Vec3, w: Vec3, margin: f64) -> bool {
+        let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+        let axes = [(p.x, w.x, self.low.x, self.high.x), (p.y, w.y, self.low.y, self.high.y), (p.z, w.z, self.low.z, self.high.z)];
+        for (p, w, low, high) in axes {
+            let (low, high) = (low - margin - p, high + margin - p);
+            if w.abs() < 1e-12 {
+                if low > 0.0 || high < 0.0 {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = (low / w, high / w);
+            (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
+        }
+        from <= to
+    }
+
     /// Length of the diagonal; 0 for the empty box.
     pub(crate) fn diagonal(&self) -> f64 {
         if self.low.x > self.high.x { 0.0 } else { (self.high - self.low).norm() }

@@ -25,7 +25,7 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Lateral, b: &La
         events(region, &circle, scene.tolerance, &mut breaks);
     }
     let least = scene.tolerance / a.radius.min(b.radius);
-    scan([&regions[0], &regions[1]], breaks, span, least, scene.tolerance, |angle| {
+    scan([&regions[0], &regions[1]], breaks, |_| Some(span), least, scene.tolerance, |angle| {
         let (sin, cos) = angle.sin_cos();
         let normal = u * cos + v * sin;
         Line { from: radii.map(|r| a.middle + normal * r), along: d, normal }

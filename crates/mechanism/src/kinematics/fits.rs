@@ -44,7 +44,9 @@ const NEAR_RADIUS: f64 = 0.25;
 /// Axes further apart than this part of the radius are no near miss.
 const NEAR_OFFSET: f64 = 0.1;
 /// Face pairs examined for each pair of parts.
-const MAX_FACE_PAIRS: usize = 4096;
+const MAX_FACE_PAIRS: usize = 10_000;
+/// Of faces across the axis only the largest are examined.
+const MAX_END_PAIRS: usize = 500;
 
 pub(crate) fn shafts(
     scene: &Scene<'_>,
@@ -115,18 +117,39 @@ fn shaft_fit(
 }
 
 /// All patches in which plane faces of the two parts meet, at a distance up to `clearance`. `wanted` says whether
-/// faces of a normal matter.
+/// faces of a normal matter; true with the patches if not all could be examined.
 pub(crate) fn face_patches(
     scene: &Scene<'_>,
     solids: [&Solid<'_>; 2],
     clearance: f64,
     wanted: impl Fn(Vec3) -> bool,
-) -> Vec<PlanePatch> {
-    let mut patches = Vec::new();
-    for (a, b) in face_pairs(solids, clearance + scene.tolerance, wanted).into_iter().take(MAX_FACE_PAIRS) {
-        patches.extend(plane_fit::meet(scene, [&solids[0].site, &solids[1].site], &a, &b));
+) -> (Vec<PlanePatch>, bool) {
+    let pairs = face_pairs(solids, clearance + scene.tolerance, wanted);
+    let examined = pairs.iter().take(MAX_FACE_PAIRS);
+    let sites = [&solids[0].site, &solids[1].site];
+    let patches = examined.flat_map(|(a, b)| plane_fit::meet(scene, sites, a, b)).collect();
+    (patches, pairs.len() > MAX_FACE_PAIRS)
+}
+
+/// Patches that block motion along `d`: the first found in either sense of each.
+pub(crate) fn end_patches(scene: &Scene<'_>, solids: [&Solid<'_>; 2], d: Vec3) -> Vec<PlanePatch> {
+    let sites = [&solids[0].site, &solids[1].site];
+    let mut found: Vec<PlanePatch> = Vec::new();
+    let mut pairs = face_pairs(solids, scene.tolerance, |n| parallel(n, d));
+    // Large faces first: they are the likeliest to stop a part. Equal ones stay in the order of the text.
+    let size = |(a, b): &(Face, Face)| a.area().min(b.area());
+    pairs.sort_by(|p, q| size(q).total_cmp(&size(p)));
+    for (a, b) in pairs.iter().take(MAX_END_PAIRS) {
+        for patch in plane_fit::meet(scene, sites, a, b) {
+            if !found.iter().any(|p| p.normal.dot(patch.normal) > 0.0) {
+                found.push(patch);
+            }
+        }
+        if found.len() == 2 {
+            break;
+        }
     }
-    patches
+    found
 }
 
 /// Faces in parallel planes at most `reach` apart, the first face's normal pointing to the second where they do
@@ -136,21 +159,17 @@ pub(crate) fn face_pairs(
     reach: f64,
     wanted: impl Fn(Vec3) -> bool,
 ) -> Vec<(Face, Face)> {
-    let near = |of: &Solid<'_>, other: &Solid<'_>| -> Vec<Face> {
+    let near = |of: &Solid<'_>, other: &Solid<'_>| -> Vec<(Face, Bounds)> {
         let zone = other.bounds.grown(reach);
-        let touches = |f: &&Face| Bounds::of_points(f.corners()).touches(&zone) && wanted(f.normal);
-        of.faces.iter().filter(touches).copied().collect()
+        let boxed = of.faces.iter().map(|f| (*f, Bounds::of_points(f.corners()).grown(reach)));
+        boxed.filter(|(f, b)| b.touches(&zone) && wanted(f.normal)).collect()
     };
     let (first, second) = (near(solids[0], solids[1]), near(solids[1], solids[0]));
     let mut pairs = Vec::new();
-    for a in &first {
-        for b in &second {
+    for (a, around_a) in &first {
+        for (b, around_b) in &second {
             let gap = (b.middle - a.middle).dot(a.normal);
-            if gap.abs() > reach || !parallel(a.normal, b.normal) {
-                continue;
-            }
-            let boxes = [a, b].map(|f| Bounds::of_points(f.corners()).grown(reach));
-            if boxes[0].touches(&boxes[1]) {
+            if gap.abs() <= reach && around_a.touches(around_b) && parallel(a.normal, b.normal) {
                 let normal = if gap < 0.0 { -a.normal } else { a.normal };
                 pairs.push((Face { normal, ..*a }, *b));
             }

@@ -13,6 +13,8 @@ use mainspring_geometry::{Csg, Primitive};
 pub(crate) struct Lower {
     pub pairs: Vec<Pair>,
     pub misses: Vec<Miss>,
+    /// Parts with more faces against each other than are examined.
+    pub cut_short: Vec<(usize, usize)>,
 }
 
 /// A point is on a surface within this part of the machine's size.
@@ -52,8 +54,9 @@ pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f6
         }
         misses.extend(found);
     }
+    let cut_short = findings.iter().filter(|(_, f)| f.too_many_faces).map(|(parts, _)| *parts).collect();
     let pairs = findings.into_iter().filter_map(|(_, f)| f.pair).map(|f| f.pair).collect();
-    Lower { pairs, misses }
+    Lower { pairs, misses, cut_short }
 }
 
 /// A fit that leaves a way out holds only while something keeps the part in it: it makes a pair for a part that has

@@ -43,24 +43,31 @@ pub(crate) struct Line {
 
 /// At most this many scan lines are laid over one surface.
 const MAX_LINES: usize = 2048;
+/// Bound on scan lines times the squared number of primitives that reach the surface.
+const MAX_WORK: usize = 400_000;
 
-/// Scans a surface. `breaks` are the events of the scan parameter, its ends included; `span` the interval along
-/// the lines; pieces narrower than `least_s` or `tolerance` are not counted.
+/// Scans a surface. `breaks` are the events of the scan parameter, its ends included; `span` tells the interval
+/// of a line that counts, if any; pieces narrower than `least_s` or `tolerance` are not counted.
 pub(crate) fn scan(
     regions: [&Region; 2],
     mut breaks: Vec<f64>,
-    span: (f64, f64),
+    span: impl Fn(&Line) -> Option<(f64, f64)>,
     least_s: f64,
     tolerance: f64,
     line: impl Fn(f64) -> Line,
 ) -> Meeting {
     breaks.sort_by(f64::total_cmp);
     let mut meeting = Meeting::default();
-    let stride = breaks.len().div_ceil(MAX_LINES).max(1);
+    let members: usize = regions.iter().map(|r| r.members.len()).sum();
+    let lines = (MAX_WORK / (members * members).max(1)).clamp(24, MAX_LINES);
+    let stride = breaks.len().div_ceil(lines).max(1);
     let mut from = breaks[0];
     for &to in breaks[1..].iter().step_by(stride).chain(breaks.last()) {
         if to - from > least_s {
-            scan_line(regions, &line(within(from, to)), (from, to), span, tolerance, &mut meeting);
+            let line = line(within(from, to));
+            if let Some(span) = span(&line) {
+                scan_line(regions, &line, (from, to), span, tolerance, &mut meeting);
+            }
             from = to;
         }
     }

@@ -1,13 +1,15 @@
 //! Face on face: where two plane faces meet.
 
 use super::bounds::Bounds;
-use super::patch::{Cell, Line, Meeting, Scene, Site, scan};
+use super::patch::{Line, Meeting, Scene, Site, scan};
 use super::region::{Member, Region, within};
 use super::surface::{Face, parallel};
 use mainspring_geometry::{Shape, Vec2, Vec3};
 
 /// Lines laid over the rectangle where a tilted round primitive cuts it, besides the exact events.
 const EXTRA_LINES: usize = 48;
+/// With more walls than this in one plane, their crossings are not looked for: evenly spread lines must do.
+const MAX_TRACES: usize = 200;
 
 /// A piece of plane where two parts meet.
 #[derive(Clone, Debug)]
@@ -43,16 +45,18 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Face, b: &Face)
         events(region, &Frame { origin: origin + n * shift, ..frame }, scene.tolerance, &mut breaks);
     }
     breaks.retain(|s| *s >= low.x && *s <= high.x);
-    let mut meeting =
-        scan([&regions[0], &regions[1]], breaks, (low.y, high.y), scene.tolerance, scene.tolerance, |s| {
-            Line { from: [at(s, 0.0), at(s, 0.0) + n * gap], along: v, normal: n }
-        });
     let owners = [a, b].map(|f| Member::new(&scene.primitives[f.id.primitive as usize]));
-    let on_faces = |c: &Cell| {
-        let p = at(within(c.s.0, c.s.1), within(c.t.0, c.t.1));
-        owners[0].reaches(p, 2.0 * scene.tolerance) && owners[1].reaches(p + n * gap, 2.0 * scene.tolerance)
+    let span = |line: &Line| {
+        let [a, b] = [0, 1].map(|i| on_face(&owners[i], line, i, scene.tolerance));
+        let ((a, b), (c, d)) = (a?, b?);
+        let (from, to) = (a.max(c).max(low.y), b.min(d).min(high.y));
+        (to - from > scene.tolerance).then_some((from, to))
     };
-    meeting.cells.retain(on_faces);
+    let meeting = scan([&regions[0], &regions[1]], breaks, span, scene.tolerance, scene.tolerance, |s| Line {
+        from: [at(s, 0.0), at(s, 0.0) + n * gap],
+        along: v,
+        normal: n,
+    });
     patches(&meeting, gap, n, [*a, *b], at, scene.tolerance)
 }
 
@@ -82,6 +86,17 @@ fn patches(
         }
     }
     found
+}
+
+/// The stretch of a line in a face of a primitive: faces are convex.
+fn on_face(owner: &Member, line: &Line, which: usize, tolerance: f64) -> Option<(f64, f64)> {
+    let (from, along) = (line.from[which], line.along);
+    let mut cuts = Vec::with_capacity(6);
+    owner.crossings(from, along, &mut cuts);
+    cuts.sort_by(f64::total_cmp);
+    let inside = |c: &&[f64]| owner.reaches(from + along * within(c[0], c[1]), 2.0 * tolerance);
+    let stretches = || cuts.windows(2).filter(|c| c[1] - c[0] > tolerance).filter(inside);
+    Some((stretches().next()?[0], stretches().last()?[1]))
 }
 
 fn common_rectangle(a: &Face, b: &Face, flat: impl Fn(Vec3) -> Vec2, tolerance: f64) -> Option<(Vec2, Vec2)> {
@@ -135,12 +150,18 @@ fn events(region: &Region, frame: &Frame, tolerance: f64, breaks: &mut Vec<f64>)
             }
         }
     }
-    if tilted {
+    if tilted || traces.len() > MAX_TRACES {
         let step = (frame.high - frame.low) / EXTRA_LINES as f64;
         breaks.extend((1..EXTRA_LINES).map(|k| frame.low + k as f64 * step));
     }
+    if traces.len() > MAX_TRACES {
+        return;
+    }
     for (k, &(i, a)) in traces.iter().enumerate() {
         for &(j, b) in &traces[..k] {
+            if !region.members[i].bounds.touches(&region.members[j].bounds.grown(tolerance)) {
+                continue;
+            }
             for p in crossings(a, b).into_iter().flatten() {
                 if p.x < frame.low || p.x > frame.high {
                     continue;

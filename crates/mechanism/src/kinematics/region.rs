@@ -38,6 +38,7 @@ pub(crate) struct Member {
     pub shape: Shape,
     pub machine_from_local: Rigid3,
     local_from_machine: Rigid3,
+    pub bounds: Bounds,
 }
 
 impl Region {
@@ -78,7 +79,7 @@ impl Region {
 
     /// Appends every t at which `p + t w` (unit `w`) passes a wall of a member.
     pub(crate) fn crossings(&self, p: Vec3, w: Vec3, out: &mut Vec<f64>) {
-        for member in &self.members {
+        for member in self.members.iter().filter(|m| m.bounds.meets_line(p, w, 4.0 * self.tolerance)) {
             member.crossings(p, w, out);
         }
     }
@@ -123,16 +124,23 @@ type Wall = (f64, f64);
 impl Member {
     pub(crate) fn new(primitive: &Primitive) -> Self {
         let Primitive { shape, machine_from_local } = *primitive;
-        Member { shape, machine_from_local, local_from_machine: machine_from_local.inverse() }
+        let local_from_machine = machine_from_local.inverse();
+        Member { shape, machine_from_local, local_from_machine, bounds: Bounds::of(primitive) }
     }
 
     fn holds(&self, p: Vec3, d: Vec3, tolerance: f64) -> bool {
+        if !self.bounds.holds(p, tolerance) {
+            return false;
+        }
         let (walls, n) = self.walls(p, d);
         walls[..n].iter().all(|&(slack, rate)| slack > tolerance || (slack > -tolerance && rate > 1e-9))
     }
 
     /// Is the point inside or on the boundary, to the tolerance?
     pub(crate) fn reaches(&self, p: Vec3, tolerance: f64) -> bool {
+        if !self.bounds.holds(p, tolerance) {
+            return false;
+        }
         let (walls, n) = self.walls(p, Vec3::new(1.0, 0.0, 0.0));
         walls[..n].iter().all(|&(slack, _)| slack > -tolerance)
     }
@@ -140,7 +148,7 @@ impl Member {
     fn walls(&self, p: Vec3, d: Vec3) -> ([Wall; 6], usize) {
         let (q, e) = (self.local_from_machine.apply(p), self.local_from_machine.rotate(d));
         let mut walls = [(0.0, 0.0); 6];
-        let rho = q.x.hypot(q.y);
+        let rho = (q.x * q.x + q.y * q.y).sqrt();
         let radial = if rho > 0.0 { (q.x * e.x + q.y * e.y) / rho } else { 0.0 };
         let n = match self.shape {
             Shape::Block { x, y, z } => {
@@ -185,7 +193,8 @@ impl Member {
         faces(0, &primitive).into_iter().map(|f| (f.normal, f.middle)).collect()
     }
 
-    fn crossings(&self, p: Vec3, w: Vec3, out: &mut Vec<f64>) {
+    /// Appends every t at which `p + t w` (unit `w`) passes one of its walls.
+    pub(crate) fn crossings(&self, p: Vec3, w: Vec3, out: &mut Vec<f64>) {
         let (q, e) = (self.local_from_machine.apply(p), self.local_from_machine.rotate(w));
         let flat = |out: &mut Vec<f64>, slack: f64, rate: f64| {
             if rate.abs() > 1e-12 {

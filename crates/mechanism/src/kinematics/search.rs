@@ -5,7 +5,7 @@
 //! read from the section across the common direction and from the faces that block motion along it.
 
 use super::bounds::Bounds;
-use super::fits::{ShaftFit, ShaftMiss, Solid, face_pairs, face_patches, shafts};
+use super::fits::{ShaftFit, ShaftMiss, Solid, end_patches, face_pairs, face_patches, shafts};
 use super::pair::{AxisLine, Evidence, EvidenceKind, Pair, PairKind};
 use super::patch::Scene;
 use super::plane_fit::PlanePatch;
@@ -23,6 +23,8 @@ pub(crate) struct Finding {
     pub loose: Option<Loose>,
     /// A fit with a way out that was left to contact.
     pub left_open: Option<[u32; 2]>,
+    /// Not all faces could be examined.
+    pub too_many_faces: bool,
 }
 
 #[derive(Debug)]
@@ -53,7 +55,9 @@ pub(crate) fn find(
     let found = match fits.first() {
         Some(first) => {
             let d = first.laterals[0].direction;
-            let patches = face_patches(scene, solids, clearance, |n| parallel(n, d) || perpendicular(n, d));
+            let (mut patches, cut) = face_patches(scene, solids, clearance, |n| perpendicular(n, d));
+            patches.extend(end_patches(scene, solids, d));
+            finding.too_many_faces = cut;
             with_shaft(scene, &fits, patches)
         }
         None => faces_only(scene, solids, clearance),
@@ -128,7 +132,7 @@ fn faces_only(scene: &Scene<'_>, solids: [&Solid<'_>; 2], clearance: f64) -> Res
     if candidates.iter().all(|(a, _)| parallel(a.normal, first.normal)) {
         return Ok(None);
     }
-    let patches = face_patches(scene, solids, clearance, |_| true);
+    let (patches, _) = face_patches(scene, solids, clearance, |_| true);
     let mut best: Option<(u32, Fit)> = None;
     for d in directions(&patches) {
         let origin = middle(scene, &patches, d);

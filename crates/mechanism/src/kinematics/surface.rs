@@ -27,6 +27,11 @@ pub(crate) struct Face {
 }
 
 impl Face {
+    /// Of the rectangle around it.
+    pub(crate) fn area(&self) -> f64 {
+        4.0 * self.along[0].1 * self.along[1].1
+    }
+
     pub(crate) fn corners(&self) -> [Vec3; 4] {
         let [(u, a), (v, b)] = self.along;
         [(-a, -b), (a, -b), (a, b), (-a, b)].map(|(s, t)| self.middle + u * s + v * t)
