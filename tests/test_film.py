@@ -44,3 +44,10 @@ def test_a_line_keeps_its_corners():
     values = np.where(t < 0.5, 0.0, 1.0)
     drawn = line(t, values, Axis(0, 1, ()), Axis(0, 1, ()), 100, 10)
     assert drawn == "M0 10L49 10L50 0L100 0"
+
+
+def test_a_step_stays_upright_beside_repeated_samples():
+    t = np.array([0.0, 0.3, 0.5 - 1e-9, 0.5, 0.5, 0.8, 1.0])
+    values = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
+    drawn = line(t, values, Axis(0, 1, ()), Axis(0, 1, ()), 100, 10)
+    assert drawn == "M0 0L50 0L50 10L100 10"

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mainspring.report.sampling import Film, Floats
 from mainspring.report.ticks import Axis, angles, decades, lengths, times
@@ -41,20 +40,20 @@ def energy_curve(film: Film) -> Curve:
 
 def line(t: Floats, values: Floats, time: Axis, axis: Axis, width: float, height: float) -> str:
     """Return an SVG path through the samples, y down; samples on a straight line are left out."""
-    x = (t - time.low) / (time.high - time.low) * width
-    y = (1 - (values - axis.low) / (axis.high - axis.low)) * height
-    keep = _corners(np.round(x, 2), np.round(y, 2))
-    return "M" + "L".join(f"{a:.5g} {b:.5g}" for a, b in zip(x[keep].tolist(), y[keep].tolist(), strict=True))
+    x = np.round((t - time.low) / (time.high - time.low) * width, 2)
+    y = np.round((1 - (values - axis.low) / (axis.high - axis.low)) * height, 2)
+    points = _needed(np.column_stack((x, y)))
+    return "M" + "L".join(f"{a:.5g} {b:.5g}" for a, b in points.tolist())
 
 
-def _corners(x: Floats, y: Floats) -> NDArray[np.bool_]:
-    """Return which samples are needed: neighbours that nearly repeat both coordinates are not."""
-    moved = (np.abs(np.diff(x)) > 0) | (np.abs(np.diff(y)) > 0)
-    flat = np.zeros(len(x), dtype=bool)
-    flat[1:-1] = (y[1:-1] == y[:-2]) & (y[1:-1] == y[2:])
-    keep = np.concatenate(([True], moved)) & ~flat
-    keep[-1] = True
-    return keep
+def _needed(points: Floats) -> Floats:
+    """Leave out points that repeat the one before, then those inside a level stretch."""
+    new = np.concatenate(([True], np.any(np.diff(points, axis=0) != 0, axis=1)))
+    points = points[new]
+    y = points[:, 1]
+    inside = np.zeros(len(y), dtype=bool)
+    inside[1:-1] = (y[1:-1] == y[:-2]) & (y[1:-1] == y[2:])
+    return points[~inside]
 
 
 def _grid(axis: Axis) -> str:

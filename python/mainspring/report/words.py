@@ -33,7 +33,10 @@ def figure(value: float, digits: int = 6) -> str:
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], numeric: Iterable[int] = ()) -> str:
-    """Return a table; cells are HTML already, `numeric` columns are set right."""
+    """Return a table; cells are HTML already, `numeric` columns are set right.
+
+    Tables of more than three columns stack their cells on narrow screens.
+    """
     right = set(numeric)
     kinds = [' class="n"' if i in right else "" for i in range(len(heads))]
     head = "".join(f'<th scope="col"{k}>{escape(h)}</th>' for h, k in zip(heads, kinds, strict=True))
@@ -41,4 +44,7 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], numeric: Iterable
         "<tr>" + "".join(f"<td{k}>{c}</td>" for c, k in zip(row, kinds, strict=True)) + "</tr>"
         for row in rows
     )
-    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+    kind = ' class="stack"' if len(heads) > 3 else ""
+    return (
+        f'<div class="scroll"><table{kind}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+    )
