@@ -173,3 +173,47 @@ fn scale_changes_nothing() {
         assert_eq!(kinds(&m), ["prismatic/prismatic slider-frame"], "{k}");
     }
 }
+
+/// One motion, one subsystem: the piston's speed over the crank's is that of the textbook,
+/// `-r (sin a + r sin a cos a / sqrt(l² − r² sin² a))`.
+#[test]
+fn closed_chain_of_one_motion_is_one_subsystem() {
+    let m = example("slider-crank");
+    assert_eq!(m.subsystems.len(), 1);
+    let s = &m.subsystems[0];
+    assert!(s.closed && s.root == 0 && s.parts.len() == 3);
+    let (r, l) = (2.0f64, 7.0f64);
+    let (sin, cos) = 60f64.to_radians().sin_cos();
+    let expected = -r * (sin + r * sin * cos / (l * l - r * r * sin * sin).sqrt());
+    assert!((s.parts[2].1 - expected).abs() < 1e-9, "{} {expected}", s.parts[2].1);
+}
+
+/// A skew turn and shift made from a seed, in the words of the language.
+fn somewhere(seed: u64) -> String {
+    let mut state = seed;
+    let mut next = |scale: f64| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        scale * ((state >> 33) as f64 / (1u64 << 31) as f64 - 0.5)
+    };
+    let turns = [next(360.0), next(360.0), next(360.0)];
+    let shifts = [next(50.0), next(50.0), next(50.0)];
+    format!(
+        "degx={}, degy={}, degz={}, movx={}, movy={}, movz={}",
+        turns[0], turns[1], turns[2], shifts[0], shifts[1], shifts[2]
+    )
+}
+
+#[test]
+fn machines_are_the_same_anywhere_in_space() {
+    for seed in 1..=40 {
+        let place = somewhere(seed);
+        let m = compile(&moved(&example_text("slider-crank"), &CRANK_PARTS, &place));
+        let found: Vec<String> = kinds(&m).iter().map(|k| k.replace("_moved", "")).collect();
+        assert_eq!(found, CRANK_PAIRS, "{place}");
+        assert!((m.subsystems[0].parts[2].1.abs() - 1.987427766796502).abs() < 1e-8, "{:?}", m.subsystems);
+        let m = compile(&moved(&example_text("escapement"), &["ewheel", "lever", "bwheel", "frame"], &place));
+        let revolute = m.pairs.iter().filter(|p| p.kind == PairKind::Revolute).count();
+        assert_eq!((revolute, m.pairs.len(), m.near_misses.len()), (3, 3, 0), "{place}");
+        assert!(m.parts.iter().all(|p| p.outline.is_some()), "{place}");
+    }
+}

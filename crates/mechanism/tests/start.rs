@@ -161,3 +161,11 @@ fn compile_is_repeatable() {
     let options = CompileOptions::default();
     assert_eq!(show(&compile_with(&text, &options)), show(&compile_with(&text, &options)));
 }
+
+#[test]
+fn closed_chains_take_no_initial_state() {
+    let text = support::example_text("slider-crank");
+    assert!(with(&text, "POSITION piston 0\n").is_ok());
+    let message = with(&text, "POSITION crankshaft 10\n").map(|_| ()).unwrap_err();
+    assert!(message.contains("closed chain") && message.starts_with("test.sup:1:"), "{message}");
+}

@@ -31,6 +31,8 @@ pub(crate) struct Found {
     pub closed_chains: Vec<ClosedChain>,
     pub mobility: usize,
     pub warnings: Vec<Warning>,
+    /// Rates of the pairs of each closed chain that has one motion.
+    pub rates: Vec<Vec<(usize, f64)>>,
 }
 
 pub(crate) fn analyse(
@@ -72,8 +74,10 @@ pub(crate) fn analyse(
     }
     let closed_chains = chains(&loops, &left_out);
     let mobility = mobility(&pairs, &loops, &left_out);
+    let linkages = loops.iter().filter(|l| !l.gears_only);
+    let rates = linkages.filter_map(|l| l.rates(&left_out)).collect();
     let plane = WorkingPlane { planar: plane::is_planar(&pairs, plane.normal), ..plane };
-    Found { pairs, misses, plane, closed_chains, mobility, warnings }
+    Found { pairs, misses, plane, closed_chains, mobility, warnings, rates }
 }
 
 fn cut_short(parts: &(usize, usize)) -> Warning {

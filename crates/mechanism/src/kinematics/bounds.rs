@@ -79,7 +79,11 @@ impl Bounds {
     /// Does the line `p + t w` come within `margin` of the box?
     pub(crate) fn meets_line(&self, p: Vec3, w: Vec3, margin: f64) -> bool {
         let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
-        let axes = [(p.x, w.x, self.low.x, self.high.x), (p.y, w.y, self.low.y, self.high.y), (p.z, w.z, self.low.z, self.high.z)];
+        let axes = [
+            (p.x, w.x, self.low.x, self.high.x),
+            (p.y, w.y, self.low.y, self.high.y),
+            (p.z, w.z, self.low.z, self.high.z),
+        ];
         for (p, w, low, high) in axes {
             let (low, high) = (low - margin - p, high + margin - p);
             if w.abs() < 1e-12 {

@@ -11,7 +11,7 @@ use super::patch::Scene;
 use super::plane::WorkingPlane;
 use super::reach::Parts;
 use super::region::without_leaves;
-use super::subsystems::{holds, subsystems};
+use super::subsystems::{holds, join, subsystems};
 use super::supplement::{given, reflected};
 use super::surface::lateral;
 use super::symmetry::symmetries;
@@ -65,13 +65,14 @@ fn assemble(
 
     let gears = gear_data(&machine, values, &scene, &solids)?;
     let shapes = Shapes { scene: &scene, solids: &solids, csgs: &csgs, leaves: &leaves, label: &label };
-    let Found { mut pairs, misses, plane, closed_chains, mobility, warnings } =
+    let Found { mut pairs, misses, plane, closed_chains, mobility, warnings, rates } =
         analyse(&shapes, &gears, frame, size, options);
     let name = |i: usize| models[i].name.clone();
     words::tell(&mut pairs, name, label);
 
     let holds = holds(models.len(), frame, &pairs);
-    let subsystems = subsystems(&holds, &pairs);
+    let mut subsystems = subsystems(&holds, &pairs);
+    rates.iter().for_each(|r| join(&mut subsystems, r, &holds, &pairs));
     let parts: Vec<Part> = (0..models.len())
         .map(|i| {
             let Section { outline, recipe, note, tilted } =

@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use super::patch::{Line, Meeting, Scene, Site, scan};
-use super::region::{Member, Region};
+use super::region::{Carrier, Member, Region};
 use super::surface::{Lateral, across, parallel};
 use mainspring_geometry::{Shape, Vec3};
 use std::f64::consts::TAU;
@@ -17,19 +17,29 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Lateral, b: &La
     let Some(span) = common_span(a, b, scene.tolerance) else { return Meeting::default() };
     let (u, v) = across(d);
     let near = around(a.middle, d, span, a.radius.max(b.radius));
-    let regions = sites.map(|site| scene.region(site, &near));
     let radii = [a.radius, b.radius];
+    let regions = [0, 1].map(|i| {
+        let carrier = Carrier::Cylinder { point: a.middle, direction: d, radius: radii[i] };
+        scene.region(sites[i], &near, carrier)
+    });
     let mut breaks = vec![0.0, TAU];
     for (region, radius) in regions.iter().zip(radii) {
         let circle = Circle { center: a.middle, d, u, v, radius };
         events(region, &circle, scene.tolerance, &mut breaks);
     }
     let least = scene.tolerance / a.radius.min(b.radius);
-    scan([&regions[0], &regions[1]], breaks, |_| Some(span), least, scene.tolerance, |angle| {
-        let (sin, cos) = angle.sin_cos();
-        let normal = u * cos + v * sin;
-        Line { from: radii.map(|r| a.middle + normal * r), along: d, normal }
-    })
+    scan(
+        [&regions[0], &regions[1]],
+        breaks,
+        |_| Some(span),
+        least,
+        scene.tolerance,
+        |angle| {
+            let (sin, cos) = angle.sin_cos();
+            let normal = u * cos + v * sin;
+            Line { from: radii.map(|r| a.middle + normal * r), along: d, normal }
+        },
+    )
 }
 
 /// The stretch of the axis both have, from `a`'s middle; none below the tolerance.

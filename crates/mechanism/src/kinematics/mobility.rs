@@ -181,6 +181,21 @@ impl Loops {
         self.typical.iter().map(count).min().unwrap_or(0)
     }
 
+    /// Rates of the pairs' freedoms at the modelled place, if there is a single motion: (pair, rate), the rate of the
+    /// pair's second part against its first in radians, or the file's length.
+    pub(crate) fn rates(&self, left_out: &[(usize, Freedom)]) -> Option<Vec<(usize, f64)>> {
+        let degrees = &self.chain.degrees;
+        let kept: Vec<usize> = {
+            let out = self.mask(left_out);
+            (0..degrees.len()).filter(|d| !out[*d]).collect()
+        };
+        let here = self.chain.equations(&vec![0.0; degrees.len()]);
+        let fewer: Matrix = here.iter().map(|row| kept.iter().map(|d| row[*d]).collect()).collect();
+        let [motion] = &null_space(&fewer, kept.len(), RATE_TOLERANCE)[..] else { return None };
+        let scale = |d: usize| if degrees[d].turns { 1.0 } else { self.chain.size };
+        Some(kept.iter().zip(motion).map(|(&d, rate)| (degrees[d].pair, rate * scale(d))).collect())
+    }
+
     pub(crate) fn has(&self, pair: usize) -> bool {
         self.chain.degrees.iter().any(|d| d.pair == pair)
     }

@@ -5,7 +5,7 @@
 //! the surface and that of the other ahead of it, both judged at a point within the cell.
 
 use super::bounds::Bounds;
-use super::region::{Region, Sides, within};
+use super::region::{Carrier, Region, Sides, within};
 use mainspring_geometry::Vec3;
 
 /// A piece of surface where the parts meet.
@@ -124,7 +124,7 @@ pub(crate) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    pub(crate) fn region(&self, site: &Site<'_>, near: &Bounds) -> Region {
-        Region::new(self.primitives, site.csg, self.boxes, near, self.tolerance)
+    pub(crate) fn region(&self, site: &Site<'_>, near: &Bounds, carrier: Carrier) -> Region {
+        Region::new(self.primitives, site.csg, self.boxes, near, carrier, self.tolerance)
     }
 }

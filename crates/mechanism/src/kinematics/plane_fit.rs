@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use super::patch::{Line, Meeting, Scene, Site, scan};
-use super::region::{Member, Region, within};
+use super::region::{Carrier, Member, Region, within};
 use super::surface::{Face, parallel};
 use mainspring_geometry::{Shape, Vec2, Vec3};
 
@@ -38,24 +38,23 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Face, b: &Face)
             .into_iter()
             .flat_map(|p| [p, p + n * gap]),
     );
-    let regions = sites.map(|site| scene.region(site, &near));
+    let regions = sites.map(|site| scene.region(site, &near, Carrier::Plane));
     let frame = Frame { origin, u, v, n, low: low.x, high: high.x };
     let mut breaks = vec![low.x, high.x];
     for (region, shift) in regions.iter().zip([0.0, gap]) {
         events(region, &Frame { origin: origin + n * shift, ..frame }, scene.tolerance, &mut breaks);
     }
     breaks.retain(|s| *s >= low.x && *s <= high.x);
-    let owners = [a, b].map(|f| Member::new(&scene.primitives[f.id.primitive as usize]));
+    let owners = [a, b]
+        .map(|f| Member::new(&scene.primitives[f.id.primitive as usize], Carrier::Plane, scene.tolerance));
     let span = |line: &Line| {
         let [a, b] = [0, 1].map(|i| on_face(&owners[i], line, i, scene.tolerance));
         let ((a, b), (c, d)) = (a?, b?);
         let (from, to) = (a.max(c).max(low.y), b.min(d).min(high.y));
         (to - from > scene.tolerance).then_some((from, to))
     };
-    let meeting = scan([&regions[0], &regions[1]], breaks, span, scene.tolerance, scene.tolerance, |s| Line {
-        from: [at(s, 0.0), at(s, 0.0) + n * gap],
-        along: v,
-        normal: n,
+    let meeting = scan([&regions[0], &regions[1]], breaks, span, scene.tolerance, scene.tolerance, |s| {
+        Line { from: [at(s, 0.0), at(s, 0.0) + n * gap], along: v, normal: n }
     });
     patches(&meeting, gap, n, [*a, *b], at, scene.tolerance)
 }
@@ -95,8 +94,9 @@ fn on_face(owner: &Member, line: &Line, which: usize, tolerance: f64) -> Option<
     owner.crossings(from, along, &mut cuts);
     cuts.sort_by(f64::total_cmp);
     let inside = |c: &&[f64]| owner.reaches(from + along * within(c[0], c[1]), 2.0 * tolerance);
-    let stretches = || cuts.windows(2).filter(|c| c[1] - c[0] > tolerance).filter(inside);
-    Some((stretches().next()?[0], stretches().last()?[1]))
+    let mut stretches = cuts.windows(2).filter(|c| c[1] - c[0] > tolerance).filter(inside);
+    let first = stretches.next()?;
+    Some((first[0], stretches.next_back().unwrap_or(first)[1]))
 }
 
 fn common_rectangle(a: &Face, b: &Face, flat: impl Fn(Vec3) -> Vec2, tolerance: f64) -> Option<(Vec2, Vec2)> {

@@ -6,7 +6,7 @@
 use super::bounds::Bounds;
 use super::pair::{Pair, PairKind};
 use super::plane::is_prism;
-use super::region::Region;
+use super::region::{Carrier, Region};
 use super::subsystems::Hold;
 use super::surface::{across, parallel};
 use mainspring_geometry::{Csg, CurveId, Primitive, Vec3};
@@ -133,8 +133,9 @@ impl Parts<'_> {
         let around =
             |p: usize| self.leaves[p].iter().fold(Bounds::EMPTY, |x, i| x.join(&self.boxes[*i as usize]));
         let (zone, both) = (around(a), around(a).join(&around(b)));
-        let regions =
-            [a, b].map(|p| Region::new(self.primitives, self.csgs[p], self.boxes, &both, self.tolerance));
+        let regions = [a, b].map(|p| {
+            Region::new(self.primitives, self.csgs[p], self.boxes, &both, Carrier::Space, self.tolerance)
+        });
         let work: usize = regions.iter().map(|r| r.members.len()).sum::<usize>().pow(2);
         let lines = LINES.min((MAX_WORK / work.max(1)).isqrt()).max(3);
         let (u, v) = across(d);

@@ -1,11 +1,12 @@
 //! Where a part's material lies near a place: membership of points, decided on surfaces by direction.
 //!
-//! A point on a surface has no side of its own. Every wall of a primitive through the point (to a tolerance) is
-//! judged by the direction in which one leaves the point, so that coincident surfaces of several primitives are
-//! counted by orientation and never by rounding.
+//! A point on a surface has no side of its own. Every wall that coincides with the surface under examination (to a
+//! tolerance) is judged by the direction in which one leaves the point, so that coincident surfaces of several
+//! primitives are counted by orientation and never by rounding. Walls that only touch the surface along a line do
+//! not coincide with it: they are judged by the sign of the distance.
 
 use super::bounds::Bounds;
-use super::surface::faces;
+use super::surface::{faces, off_line, parallel};
 use mainspring_geometry::{Csg, CsgOp, Primitive, Rigid3, Shape, Vec3};
 
 /// Is there material just behind and just ahead of a point, seen along a direction?
@@ -27,6 +28,19 @@ impl Sides {
     }
 }
 
+/// The surface on which points will be examined.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Carrier {
+    /// None: points anywhere.
+    Space,
+    Plane,
+    Cylinder {
+        point: Vec3,
+        direction: Vec3,
+        radius: f64,
+    },
+}
+
 /// The primitives of a part that reach into a box, and the set expression left of them.
 pub(crate) struct Region {
     pub members: Vec<Member>,
@@ -39,16 +53,25 @@ pub(crate) struct Member {
     pub machine_from_local: Rigid3,
     local_from_machine: Rigid3,
     pub bounds: Bounds,
+    /// Plane walls, and the round wall, may coincide with the carrier.
+    coincide: [bool; 2],
 }
 
 impl Region {
-    /// `boxes[i]` bounds primitive `i`; `tolerance` is a length below which a point is on a wall.
-    pub(crate) fn new(all: &[Primitive], csg: &Csg, boxes: &[Bounds], near: &Bounds, tolerance: f64) -> Self {
+    /// `boxes[i]` bounds primitive `i`; `tolerance` is a length below which walls coincide with the carrier.
+    pub(crate) fn new(
+        all: &[Primitive],
+        csg: &Csg,
+        boxes: &[Bounds],
+        near: &Bounds,
+        carrier: Carrier,
+        tolerance: f64,
+    ) -> Self {
         let near = near.grown(4.0 * tolerance);
         let mut members = Vec::new();
         let csg = reduced(csg, |i| {
             boxes[i as usize].touches(&near).then(|| {
-                members.push(Member::new(&all[i as usize]));
+                members.push(Member::new(&all[i as usize], carrier, tolerance));
                 members.len() as u32 - 1
             })
         });
@@ -122,10 +145,20 @@ pub(crate) fn without_leaves(csg: &Csg, left_out: &[u32]) -> Csg {
 type Wall = (f64, f64);
 
 impl Member {
-    pub(crate) fn new(primitive: &Primitive) -> Self {
+    pub(crate) fn new(primitive: &Primitive, carrier: Carrier, tolerance: f64) -> Self {
         let Primitive { shape, machine_from_local } = *primitive;
+        let axis = machine_from_local.columns[2];
+        let coincide = match (carrier, shape) {
+            (Carrier::Space, _) => [false, false],
+            (Carrier::Plane, _) => [true, false],
+            (Carrier::Cylinder { point, direction, radius: r }, Shape::Cylinder { radius, .. }) => {
+                let offset = off_line(machine_from_local.translation, point, direction);
+                [false, parallel(axis, direction) && offset.max((radius - r).abs()) <= 2.0 * tolerance]
+            }
+            (Carrier::Cylinder { .. }, _) => [false, false],
+        };
         let local_from_machine = machine_from_local.inverse();
-        Member { shape, machine_from_local, local_from_machine, bounds: Bounds::of(primitive) }
+        Member { shape, machine_from_local, local_from_machine, bounds: Bounds::of(primitive), coincide }
     }
 
     fn holds(&self, p: Vec3, d: Vec3, tolerance: f64) -> bool {
@@ -133,7 +166,16 @@ impl Member {
             return false;
         }
         let (walls, n) = self.walls(p, d);
-        walls[..n].iter().all(|&(slack, rate)| slack > tolerance || (slack > -tolerance && rate > 1e-9))
+        let round = match self.shape {
+            Shape::Cylinder { .. } => 2,
+            Shape::Cone { .. } => 1,
+            Shape::Sphere { .. } => 0,
+            Shape::Block { .. } | Shape::Wedge { .. } => n,
+        };
+        walls[..n].iter().enumerate().all(|(k, &(slack, rate))| {
+            let by_direction = self.coincide[usize::from(k == round)] && slack.abs() <= tolerance;
+            if by_direction { rate > 1e-9 } else { slack > 0.0 }
+        })
     }
 
     /// Is the point inside or on the boundary, to the tolerance?

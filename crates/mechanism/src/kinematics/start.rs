@@ -1,7 +1,7 @@
 //! Parts must not overlap at the start; they may touch, and meshing gear envelopes may overlap.
 
 use super::bounds::Bounds;
-use super::region::{Region, within};
+use super::region::{Carrier, Region, within};
 use mainspring_geometry::{Csg, CsgOp, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap};
 
 /// A point inside two parts at once, in machine coordinates.
@@ -57,7 +57,8 @@ impl Start<'_> {
         let low = Vec3::new(a.low.x.max(b.low.x), a.low.y.max(b.low.y), a.low.z.max(b.low.z));
         let high = Vec3::new(a.high.x.min(b.high.x), a.high.y.min(b.high.y), a.high.z.min(b.high.z));
         let zone = Bounds { low, high };
-        let regions = csgs.map(|csg| Region::new(self.primitives, csg, self.boxes, &zone, self.tolerance));
+        let regions = csgs
+            .map(|csg| Region::new(self.primitives, csg, self.boxes, &zone, Carrier::Space, self.tolerance));
         let work: usize = csgs.iter().map(|c| c.ops.len()).sum::<usize>()
             * regions.iter().map(|r| r.members.len()).sum::<usize>();
         let lines = LINES.min((MAX_WORK / work.max(1)).isqrt()).max(3);

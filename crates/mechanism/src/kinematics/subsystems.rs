@@ -13,6 +13,8 @@ pub struct Subsystem {
     pub inertia: Option<f64>,
     /// Loops of gears whose ratios contradict each other: nothing in it can move.
     pub locked: bool,
+    /// Joined by a closed chain of pairs: the ratios are those at the modelled place and change as it moves.
+    pub closed: bool,
 }
 
 /// How each part hangs on the frame: the pair that carries it, and the part that carries it.
@@ -72,7 +74,7 @@ pub(crate) fn subsystems(holds: &[Option<Hold>], pairs: &[Pair]) -> Vec<Subsyste
         }
         members.sort_unstable();
         let parts = members.iter().map(|&p| (p, ratio[p].unwrap_or(1.0))).collect();
-        found.push(Subsystem { root, parts, inertia: None, locked });
+        found.push(Subsystem { root, parts, inertia: None, locked, closed: false });
     }
     found
 }
@@ -87,4 +89,38 @@ fn gears_of(part: usize, pairs: &[Pair]) -> impl Iterator<Item = (usize, f64)> +
             _ => None,
         }
     })
+}
+
+/// Joins the subsystems of a closed chain that has one motion. `rates` are those of its pairs, each the rate of the
+/// pair's second part against its first. Left as they are if the first part stands still at the modelled place.
+pub(crate) fn join(
+    subsystems: &mut Vec<Subsystem>,
+    rates: &[(usize, f64)],
+    holds: &[Option<Hold>],
+    pairs: &[Pair],
+) {
+    let rate = |part: usize| {
+        let hold = holds[part]?;
+        let (_, rate) = rates.iter().find(|(pair, _)| *pair == hold.pair)?;
+        Some(if pairs[hold.pair].parts.1 == part { *rate } else { -*rate })
+    };
+    let takes_part = |s: &Subsystem| s.parts.iter().any(|(p, _)| rate(*p).is_some());
+    let Some(first) = subsystems.iter().find(|s| takes_part(s)) else { return };
+    let root = first.root;
+    let largest = rates.iter().fold(0.0, |m: f64, r| m.max(r.1.abs()));
+    let Some(root_rate) = rate(root).filter(|r| r.abs() > 1e-9 * largest) else { return };
+    let (members, rest): (Vec<Subsystem>, Vec<Subsystem>) = subsystems.drain(..).partition(|s| takes_part(s));
+    let mut parts = Vec::new();
+    for s in &members {
+        // The other parts of a member follow the one that takes part, by gears.
+        let Some((scale, at)) = s.parts.iter().find_map(|(p, r)| Some((rate(*p)? / root_rate, *r))) else {
+            continue;
+        };
+        parts.extend(s.parts.iter().map(|(p, r)| (*p, scale * r / at)));
+    }
+    parts.sort_by_key(|p| p.0);
+    let locked = members.iter().any(|s| s.locked);
+    *subsystems = rest;
+    subsystems.push(Subsystem { root, parts, inertia: None, locked, closed: true });
+    subsystems.sort_by_key(|s| s.root);
 }

@@ -85,6 +85,11 @@ fn spread(mechanism: &Mechanism, given: &[StateValue], what: &str) -> Result<Vec
                 format!("{name} has no joint to take a {what}, expected a part that turns or slides");
             return Err(mechanism.machine.error(state.place, message));
         };
+        if mechanism.subsystems[s].closed && value != 0.0 {
+            let name = &mechanism.parts[state.part].name;
+            let message = format!("{name} is in a closed chain of pairs, expected no {what} for its parts");
+            return Err(mechanism.machine.error(state.place, message));
+        }
         let at_root = value / ratio;
         match roots[s] {
             Some((known, _)) if (known - at_root).abs() > SAME_POSITION * (1.0 + known.abs()) => {
@@ -107,6 +112,8 @@ fn spread(mechanism: &Mechanism, given: &[StateValue], what: &str) -> Result<Vec
 pub(crate) fn reflected(mechanism: &mut Mechanism) {
     for subsystem in &mut mechanism.subsystems {
         let seen = |(part, ratio): &(usize, f64)| Some(mechanism.parts[*part].inertia? * ratio * ratio);
-        subsystem.inertia = subsystem.parts.iter().map(seen).sum();
+        // In a closed chain it depends on the position, and parts do not simply turn or slide.
+        let known = if subsystem.closed { None } else { subsystem.parts.iter().map(seen).sum() };
+        subsystem.inertia = known;
     }
 }
