@@ -3,6 +3,7 @@
 //! Gelsey 1995, Appendix A (the *global* model), with contacts as projections onto `G q̇ ≥ 0` in place of the
 //! elimination of coordinates.
 
+mod chatter;
 mod complementarity;
 mod component;
 mod energy;

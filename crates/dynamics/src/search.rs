@@ -25,12 +25,22 @@ pub struct Closing {
     pub candidate: Candidate,
 }
 
-/// What the search must leave alone: contacts that are closed, and contacts just released, which are looked for
-/// only after a positive sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What the search treats apart: contacts that are closed, and contacts that were closed to rounding when the
+/// stretch began. The latter are looked for only after a positive sample, and their gaps count from the gap at
+/// their release (never positive), which integration leaves a little below zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Watch {
     Closed,
-    Released,
+    Released { floor: f64 },
+}
+
+impl Watch {
+    fn floor(self) -> Option<f64> {
+        match self {
+            Watch::Closed => None,
+            Watch::Released { floor } => Some(floor),
+        }
+    }
 }
 
 /// The motion over a stretch: one path a coordinate.
@@ -105,14 +115,23 @@ impl Pace {
     }
 }
 
+/// What a search found.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// The first contact to close.
+    pub closing: Option<Closing>,
+    /// Nothing else closes before this time: the end of the stretch, or where the bound on work was met.
+    pub clear_until: f64,
+}
+
 /// The first contact to close over the stretch, by time and then by identity.
 pub fn first_closing(
     world: &mut World,
     stretch: &Stretch,
     watched: &[(ContactId, Watch)],
     real: &mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool,
-) -> Option<Closing> {
-    let mut best: Option<Closing> = None;
+) -> Found {
+    let mut found = Found { closing: None, clear_until: stretch.to };
     let n = stretch.paths.len();
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
     for interaction in 0..world.arms.len() {
@@ -121,53 +140,70 @@ pub fn first_closing(
         }
         let mut t = stretch.from;
         for _ in 0..MOST_STEPS {
-            let until = best.map_or(stretch.to, |b| b.t);
+            let until = found.clear_until;
             if t >= until {
                 break;
             }
-            stretch.state(t, &mut q, &mut v);
+            for arm in &world.arms[interaction] {
+                q[arm.coordinate] = stretch.paths[arm.coordinate].at(t).q;
+            }
             let (travelled, room) = world.refresh(interaction, &q, 0.0);
-            let pace = Pace::new(world, interaction, stretch, t, until);
-            let end = horizon(world, interaction, travelled, room, pace.total(), t, until);
-            let pace = if end < until { Pace::new(world, interaction, stretch, t, end) } else { pace };
+            let (end, pace) = horizon(world, interaction, stretch, (travelled, room), t, until);
             let reach = travelled + pace.total() * (end - t);
             for k in 0..world.listed(interaction).len() {
                 let candidate = world.listed(interaction)[k];
                 if candidate.distance > reach || is_closed(watched, &candidate) {
                     continue;
                 }
-                let mut march = March { stretch, t, end: best.map_or(end, |b| end.min(b.t)), pace, reach };
-                let released = watched.contains(&(candidate.id, Watch::Released));
-                if let Some(t) = march.run(world, &candidate, released, real, (&mut q, &mut v)) {
-                    best = Some(Closing { t, candidate });
+                let floor = watched.iter().find_map(|w| w.1.floor().filter(|_| w.0 == candidate.id));
+                let end = end.min(found.clear_until);
+                let mut march = March { stretch, t, end, pace, reach, floor: floor.unwrap_or(0.0) };
+                if let Some(t) = march.run(world, &candidate, floor.is_some(), real, (&mut q, &mut v)) {
+                    found = Found { closing: Some(Closing { t, candidate }), clear_until: t };
                 }
             }
             t = end;
         }
+        if t < found.clear_until {
+            found = Found { closing: None, clear_until: t };
+        }
     }
-    best
+    found
 }
 
 fn is_closed(watched: &[(ContactId, Watch)], candidate: &Candidate) -> bool {
     watched.contains(&(candidate.id, Watch::Closed))
 }
 
-/// How far to look with this list: no unlisted contact can close before, and the listed ones that can are few.
+/// How far to look with this list, and the rates of motion until then: no unlisted contact can close before, and the
+/// listed ones that can are few.
 fn horizon(
     world: &World,
     interaction: usize,
-    travelled: f64,
-    room: f64,
-    speed: f64,
+    stretch: &Stretch,
+    (travelled, room): (f64, f64),
     t: f64,
     until: f64,
-) -> f64 {
-    if speed * (until - t) <= room.min(0.04 * world.system.size) {
-        return until;
-    }
+) -> (f64, Pace) {
+    let pace = Pace::new(world, interaction, stretch, t, until);
     let nearest = world.listed(interaction).iter().map(|c| c.distance).fold(f64::INFINITY, f64::min);
-    let free = (nearest - travelled).max(0.0) + 0.04 * world.system.size;
-    until.min(t + free.min(room) / speed).max(t + 1e-15 * (1.0 + t.abs()))
+    let allowed = room.min((nearest - travelled).max(0.0) + 0.04 * world.system.size);
+    if pace.total() * (until - t) <= allowed {
+        return (until, pace);
+    }
+    // Bounds of speed shrink with the stretch: lengthen it from the safe side.
+    let mut best = (t + allowed / pace.total(), pace);
+    for _ in 0..6 {
+        let pace = Pace::new(world, interaction, stretch, t, best.0);
+        let longer = until.min(t + 0.5 * (best.0 - t + allowed / pace.total()));
+        let there = Pace::new(world, interaction, stretch, t, longer);
+        if there.total() * (longer - t) > allowed || longer <= 1.1 * (best.0 - t) + t {
+            best.1 = pace;
+            break;
+        }
+        best = (longer, there);
+    }
+    (best.0.max(t + 1e-15 * (1.0 + t.abs())), best.1)
 }
 
 struct March<'s, 'p> {
@@ -177,6 +213,8 @@ struct March<'s, 'p> {
     pace: Pace,
     /// Bound of how far features move relative to the list.
     reach: f64,
+    /// Gaps count from here.
+    floor: f64,
 }
 
 type Real<'r> = &'r mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool;
@@ -197,6 +235,10 @@ impl March<'_, '_> {
         (touch, touch.rate(at.1))
     }
 
+    fn gap(&self, touch: &Touch) -> f64 {
+        touch.state.gap - self.floor
+    }
+
     /// The time at which the contact closes, if it does before the end.
     fn run(
         &mut self,
@@ -207,7 +249,7 @@ impl March<'_, '_> {
         (q, v): (&mut [f64], &mut [f64]),
     ) -> Option<f64> {
         let size = world.system.size;
-        let (closed, away) = (CLOSED * size, c.distance.max(0.0) + self.reach + 2.0 * self.radius(world, c));
+        let away = c.distance.max(0.0) + self.reach + 2.0 * self.radius(world, c);
         if released && !self.wait_for_gap(world, c, (&mut *q, &mut *v)) {
             return (self.t < self.end).then_some(self.t);
         }
@@ -216,10 +258,19 @@ impl March<'_, '_> {
                 return None;
             }
             let (touch, rate) = self.touch(world, c, (&mut *q, &mut *v));
-            let gap = touch.state.gap;
+            let gap = self.gap(&touch);
+            // Late in a run the clock's own grain moves the gap by more than `CLOSED`.
+            let closed = CLOSED * size + 8.0 * f64::EPSILON * self.t.abs() * rate.abs();
             let touching = gap.abs() <= closed && rate < 0.0;
             if touching && real(world, &touch, q, v) {
                 return Some(self.t);
+            }
+            if gap.abs() <= closed && !touching {
+                // Closed but not closing: it may open by less than can be told apart and close again.
+                if !self.wait_for_gap(world, c, (&mut *q, &mut *v)) {
+                    return (self.t < self.end).then_some(self.t);
+                }
+                continue;
             }
             let bound = self.pace.curvature(c.kind, away, &touch);
             let side = if gap > 0.0 && !touching { 1.0 } else { -1.0 };
@@ -230,10 +281,36 @@ impl March<'_, '_> {
             let step = safe_step(clear, side * rate, bound)
                 .min(limit)
                 .max(0.99 * gap.abs() / self.pace.lipschitz(away));
-            self.t += step.max(4.0 * f64::EPSILON * self.t.abs());
+            self.t += step.max(2.0 * f64::EPSILON * self.t.abs());
         }
         // Bound met: hand the place to the resolver rather than step over it.
         Some(self.t.min(self.end))
+    }
+
+    /// The time at which the gap falls to zero for good, between a time at which it is closed to rounding and one at
+    /// which it is negative.
+    fn closes_between(
+        &mut self,
+        world: &mut World,
+        c: &Candidate,
+        above: f64,
+        below: f64,
+        at: (&mut [f64], &mut [f64]),
+    ) -> f64 {
+        let (mut a, mut b) = (above, below);
+        for _ in 0..60 {
+            self.t = 0.5 * (a + b);
+            let (touch, _) = self.touch(world, c, (&mut *at.0, &mut *at.1));
+            if self.gap(&touch) > 0.0 {
+                a = self.t
+            } else {
+                b = self.t
+            }
+            if b - a <= 1e-12 * (b - self.stretch.from) {
+                break;
+            }
+        }
+        b
     }
 
     fn radius(&self, world: &World, c: &Candidate) -> f64 {
@@ -248,9 +325,10 @@ impl March<'_, '_> {
         let (q, v) = at;
         // Behind an edge's line but past its end is free as well.
         let size = world.system.size;
-        let is_free = |touch: &Touch| touch.state.gap > 0.0 || touch.margin(size) <= 0.0;
+        let floor = self.floor;
+        let is_free = |touch: &Touch| touch.state.gap > floor || touch.margin(size) <= 0.0;
         let (touch, _) = self.touch(world, c, (&mut *q, &mut *v));
-        if touch.state.gap.abs() > open && is_free(&touch) {
+        if self.gap(&touch).abs() > open && is_free(&touch) {
             return true;
         }
         // Samples from the end backwards: in the usual case all are open and the first interval is short.
@@ -259,7 +337,7 @@ impl March<'_, '_> {
         for _ in 0..60 {
             self.t = start + dt;
             let (touch, _) = self.touch(world, c, (&mut *q, &mut *v));
-            if touch.state.gap.abs() <= open {
+            if self.gap(&touch).abs() <= open {
                 break;
             }
             first_open = is_free(&touch).then_some(self.t);
@@ -270,9 +348,12 @@ impl March<'_, '_> {
                 self.t = t;
                 true
             }
+            None if dt < self.end - start => {
+                self.t = self.closes_between(world, c, start + dt, start + 4.0 * dt, (q, v));
+                false
+            }
             None => {
-                let closes = self.t < self.end && dt < self.end - start;
-                self.t = if closes { start + 4.0 * dt } else { self.end };
+                self.t = self.end;
                 false
             }
         }

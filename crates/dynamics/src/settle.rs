@@ -5,6 +5,7 @@
 //! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem.
 
 use crate::complementarity::{Solution, solve};
+use crate::linear::Cholesky;
 use crate::place::representatives;
 use crate::search::TOGETHER;
 use crate::world::{Touch, World};
@@ -41,8 +42,8 @@ pub struct Settled {
     /// Kinetic energy lost at impacts: ½ Δq̇ᵀ M Δq̇ summed over rounds.
     pub loss: f64,
     pub closed: Vec<Closed>,
-    /// Contacts with gap and rate near zero that are opening.
-    pub opening: Vec<ContactId>,
+    /// Contacts that touch to rounding and are not closed, with their gaps.
+    pub opening: Vec<(ContactId, f64)>,
     /// Accelerations just after.
     pub acceleration: Vec<f64>,
     /// False if the conditions could not be met to the tolerance.
@@ -58,6 +59,8 @@ pub struct Instant<'a> {
     /// A contact to leave out unless the others would make it overlap: its force has come to zero, or it ran off
     /// its feature.
     pub leaving: Option<ContactId>,
+    /// Set when a contact has come to chatter by less than can be told apart: rates up to this end here.
+    pub chattering: Option<f64>,
 }
 
 /// Resolves an instant; `v` is changed by impacts.
@@ -70,8 +73,14 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
             break;
         }
     }
+    if let Some(rate) = instant.chattering {
+        let touches = choose(world, instant, &near, v);
+        quieten(world.system, rate, &touches, v);
+    }
     let touches = choose(world, instant, &near, v);
     hold(world.system, instant, &touches, v, &mut out);
+    let is_closed = |t: &&Touch| out.closed.iter().any(|c| c.candidate.id == t.candidate.id);
+    out.opening = near.iter().filter(|t| !is_closed(t)).map(|t| (t.candidate.id, t.state.gap)).collect();
     out
 }
 
@@ -151,6 +160,24 @@ fn impact(system: &System, instant: &Instant, touches: &[Touch], v: &mut [f64], 
     true
 }
 
+/// Ends a chatter: velocities that keep every touching contact with a small rate closed, nearest in the metric of
+/// inertia. The energy this takes is below what can be told apart.
+fn quieten(system: &System, rate: f64, touches: &[Touch], v: &mut [f64]) {
+    let slow = touches.iter().filter(|t| t.rate(v).abs() <= rate);
+    let mut rows: Vec<Row> = Vec::new();
+    for touch in slow {
+        rows.push(touch.row());
+        if Cholesky::new(inverse_inertia(system, &rows), rows.len()).is_none() {
+            rows.pop();
+        }
+    }
+    let Some(factor) = Cholesky::new(inverse_inertia(system, &rows), rows.len()) else { return };
+    let rates: Vec<f64> = rows.iter().map(|r| -r.dot(v)).collect();
+    add_forces(system, &rows, &factor.solve(&rates), v);
+    let all: Vec<usize> = (0..rows.len()).collect();
+    stop_locked(&rows, &all, v);
+}
+
 /// As many independent active contacts as coordinates they touch: nothing there can move.
 fn stop_locked(rows: &[Row], active: &[usize], v: &mut [f64]) {
     let groups = groups(rows, active);
@@ -203,8 +230,6 @@ fn hold(system: &System, instant: &Instant, touches: &[Touch], v: &[f64], out: &
         let (force, candidate) = (solution.lambda[k], touch.candidate);
         if force > 0.0 || solution.w[k] <= tolerance[k] {
             out.closed.push(Closed { candidate, force, active: force > 0.0 });
-        } else {
-            out.opening.push(candidate.id);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A run: flights, rests and integrated stretches from event to event. Contact mode is explicit state.
 
+use crate::chatter::Chatter;
 use crate::component::{Component, Tolerance};
 use crate::energy::{Energy, friction_loss, kinetic, potential};
 use crate::events::{Event, entries};
@@ -99,8 +100,11 @@ pub struct Simulation<'a> {
     since: Vec<f64>,
     pub closed: Vec<Closed>,
     modes: Vec<Mode>,
-    /// Contacts not to look for before a positive gap was seen.
-    released: Vec<ContactId>,
+    /// Contacts not to look for before a positive gap was seen, with the gap they count from.
+    released: Vec<(ContactId, f64)>,
+    chatter: Chatter,
+    /// Rate up to which a chatter ends at the next resolution.
+    chattering: Option<f64>,
     components: Vec<(Component, f64)>,
     next_step: f64,
     at_once: u32,
@@ -133,6 +137,8 @@ impl<'a> Simulation<'a> {
             closed: vec![],
             modes: vec![],
             released: vec![],
+            chatter: Chatter::default(),
+            chattering: None,
             components: vec![],
             next_step: options.until,
             at_once: 0,
@@ -185,6 +191,7 @@ impl<'a> Simulation<'a> {
         let (at, change) = self.next_event(to);
         self.commit(at);
         if let Some(change) = change {
+            self.note_closing(change);
             self.resolve(change.leaving());
         } else {
             self.tend();
@@ -224,17 +231,17 @@ impl<'a> Simulation<'a> {
             .closed
             .iter()
             .map(|c| (c.candidate.id, Watch::Closed))
-            .chain(self.released.iter().map(|id| (*id, Watch::Released)))
+            .chain(self.released.iter().map(|&(id, floor)| (id, Watch::Released { floor })))
             .collect();
         let stretch = Stretch { paths: &self.paths, from: self.t, to };
         let speeds = &self.speeds;
         let mut real = |world: &mut World, touch: &crate::world::Touch, q: &[f64], v: &[f64]| {
             is_standing(world, touch, q, v, speeds)
         };
-        let closing = first_closing(&mut self.world, &stretch, &watched, &mut real);
-        let to = closing.map_or(to, |c| c.t);
+        let found = first_closing(&mut self.world, &stretch, &watched, &mut real);
+        let to = found.clear_until;
         let stretch = Stretch { paths: &self.paths, from: self.t, to };
-        let mut first = closing.map(|c| (c.t, Change::Closing(c.candidate.id)));
+        let mut first = found.closing.map(|c| (c.t, Change::Closing(c.candidate.id)));
         for (component, _) in &self.components {
             let limit = first.map_or(to, |f| f.0);
             let found = first_change(&mut self.world, component, &Stretch { to: limit, ..stretch });
@@ -297,15 +304,28 @@ impl<'a> Simulation<'a> {
         self.drop_opened(open);
     }
 
-    /// Forgets released contacts whose gap is open by now.
+    /// Forgets released contacts whose gap is open by now, or that ran off their features.
     fn drop_opened(&mut self, open: f64) {
-        let listed: Vec<ContactId> = std::mem::take(&mut self.released);
-        for id in listed {
-            let candidate = find_candidate(&self.world, id);
-            let opened = candidate.is_none_or(|c| self.world.touch(&c, &self.q).state.gap.abs() > open);
-            if !opened {
-                self.released.push(id);
+        let size = self.world.system.size;
+        for (id, floor) in std::mem::take(&mut self.released) {
+            let Some(candidate) = find_candidate(&self.world, id) else { continue };
+            let touch = self.world.touch(&candidate, &self.q);
+            let off = touch.margin(size) <= 0.0 && (touch.state.gap - floor).abs() > open;
+            if touch.state.gap <= open && !off {
+                self.released.push((id, floor));
             }
+        }
+    }
+
+    /// Keeps count of contacts that close again and again.
+    fn note_closing(&mut self, change: Change) {
+        self.chattering = None;
+        let Change::Closing(id) = change else { return };
+        let Some(candidate) = find_candidate(&self.world, id) else { return };
+        let rate = self.world.touch(&candidate, &self.q).rate(&self.v);
+        if self.chatter.closes(id, self.t, rate, self.world.system.size) {
+            // Bodies of unlike inertia throw each other faster than they meet.
+            self.chattering = Some(100.0 * rate.abs());
         }
     }
 
@@ -313,7 +333,13 @@ impl<'a> Simulation<'a> {
     fn resolve(&mut self, leaving: Option<ContactId>) {
         let before = self.v.clone();
         let mut v = self.v.clone();
-        let instant = Instant { q: &self.q, speeds: &self.speeds, closed: &self.closed, leaving };
+        let instant = Instant {
+            q: &self.q,
+            speeds: &self.speeds,
+            closed: &self.closed,
+            leaving,
+            chattering: self.chattering.take(),
+        };
         let settled = settle(&mut self.world, &instant, &mut v);
         self.v = v;
         self.events.extend(entries(&self.world, self.t, &self.closed, &settled));
@@ -329,10 +355,7 @@ impl<'a> Simulation<'a> {
             *speed = speed.max(v.abs());
         }
         self.set_modes(&before, &settled);
-        self.released = settled.opening;
-        self.released.extend(leaving.filter(|id| !settled.closed.iter().any(|c| c.candidate.id == *id)));
-        self.released.sort_unstable();
-        self.released.dedup();
+        self.released = settled.opening.iter().map(|&(id, gap)| (id, gap.min(0.0))).collect();
         self.closed = settled.closed;
         self.modes.push(Mode { from: self.t, closed: self.closed.clone() });
     }
