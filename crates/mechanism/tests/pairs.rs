@@ -234,3 +234,26 @@ fn axes_are_normalised() {
         );
     }
 }
+
+/// Flat on flat at the start: contact, not a pair.
+#[test]
+fn lever_leaning_on_a_stop_still_turns() {
+    let lever = "(blo(x=6, y=1, z=1) at (movx=-1, movy=-0.5)) dif cyl(d=0.5, h=1)";
+    let frame = "(cyl(d=0.5, h=3) at (movz=-1)) un (blo(x=2, y=1, z=2) at (movx=2, movy=0.5, movz=-1))";
+    let m = compile(&two(lever, frame));
+    assert_eq!(kinds(&m), ["revolute/cylindrical part-frame"]);
+    // Only the shaft is no contact: the stop is.
+    assert_eq!(single(&m).surfaces.each_ref().map(Vec::len), [1, 1]);
+    let between = format!("{frame} un (blo(x=2, y=1, z=2) at (movx=2, movy=-1.5, movz=-1))");
+    assert_eq!(kinds(&compile(&two(lever, &between))), ["prismatic/prismatic part-frame"]);
+}
+
+/// A slider that rests on its end stop at the start: the slot makes the pair, the stop is contact.
+#[test]
+fn end_stops_are_contact() {
+    let text = two("blo(x=2)", "(blo(x=9, y=3, z=3) at (movx=-1, movy=-1, movz=-1)) dif blo(x=8)");
+    let m = compile(&text);
+    assert_eq!(kinds(&m), ["prismatic/prismatic part-frame"]);
+    assert_eq!(single(&m).surfaces.each_ref().map(Vec::len), [4, 4]);
+    assert!(single(&m).evidence.iter().any(|e| matches!(e.what, EvidenceKind::EndFaces { .. })));
+}

@@ -6,6 +6,7 @@ mod bounds;
 mod chain;
 mod compile;
 mod cylinder_fit;
+mod fit;
 mod fits;
 mod gears;
 mod linear;

@@ -4,14 +4,14 @@
 //! parts meet are taken together (which merges several bearings into one pair), and the motions they leave are
 //! read from the section across the common direction and from the faces that block motion along it.
 
-use super::bounds::Bounds;
+use super::fit::Fit;
 use super::fits::{ShaftFit, ShaftMiss, Solid, end_patches, face_pairs, face_patches, shafts};
-use super::pair::{AxisLine, Evidence, EvidenceKind, Pair, PairKind};
+use super::pair::{Pair, PairKind};
 use super::patch::Scene;
 use super::plane_fit::PlanePatch;
-use super::section::{Section, Wall, section, wall};
-use super::surface::{across, canonical, foot, off_line, parallel, perpendicular};
-use mainspring_geometry::{CurveId, Vec2, Vec3};
+use super::section::{Section, Wall, may_turn, section, wall};
+use super::surface::{across, canonical, parallel, perpendicular};
+use mainspring_geometry::{Vec2, Vec3};
 
 /// What the shapes of two parts say about each other.
 #[derive(Debug, Default)]
@@ -86,42 +86,48 @@ pub(crate) fn with_more_play(scene: &Scene<'_>, solids: [&Solid<'_>; 2]) -> Opti
     (gap > scene.tolerance && fit.exit.is_none()).then(|| (fit.patches[0].primitives(), gap))
 }
 
-/// The surfaces that make a pair, and what they leave.
-struct Fit {
-    fits: Vec<ShaftFit>,
-    patches: Vec<PlanePatch>,
-    kind: PairKind,
-    point: Vec3,
-    direction: Vec3,
-    exit: Option<Vec3>,
-}
-
 fn with_shaft(scene: &Scene<'_>, fits: &[ShaftFit], patches: Vec<PlanePatch>) -> Result<Option<Fit>, Loose> {
     let d = fits[0].laterals[0].direction;
     let origin = fits[0].laterals[0].middle;
-    let make = |kind, point, exit| {
-        let (fits, patches) = (fits.iter().map(ShaftFit::copy).collect(), patches.clone());
-        Ok(Some(Fit { fits, patches, kind, point, direction: d, exit }))
+    let make = |patches: &[PlanePatch], kind, exit| {
+        let (fits, patches) = (fits.iter().map(ShaftFit::copy).collect(), patches.to_vec());
+        Ok(Some(Fit { fits, patches, kind, point: origin, direction: d, exit }))
     };
+    let ends = || -> Vec<PlanePatch> { patches.iter().filter(|p| parallel(p.normal, d)).cloned().collect() };
     if fits.iter().any(|f| !parallel(f.laterals[0].direction, d)) {
-        return make(PairKind::Fixed, origin, None);
+        return make(&patches, PairKind::Fixed, None);
     }
     let view = View::new(origin, d, fits, &patches);
     let slides = !blocked_both_ways(&patches, d);
     off_centre(&patches, d, scene.tolerance)?;
-    match section(&view.walls(fits, &patches)) {
-        Section::Locked => make(PairKind::of_freedoms(false, slides), origin, None),
+    match around_shafts(&view.walls(fits, &[]), &view.walls(&[], &patches)) {
+        Section::Locked => make(&patches, PairKind::of_freedoms(false, slides), None),
         Section::LockedOpen { exit } => {
-            make(PairKind::of_freedoms(false, slides), origin, Some(view.lift(exit)))
+            make(&patches, PairKind::of_freedoms(false, slides), Some(view.lift(exit)))
         }
-        Section::Turning { .. } => make(PairKind::of_freedoms(true, slides), origin, None),
+        // Faces that the part leans on are contact, not pair.
+        Section::Turning { .. } => make(&ends(), PairKind::of_freedoms(true, slides), None),
         Section::TurningOpen { exit, .. } => {
-            make(PairKind::of_freedoms(true, slides), origin, Some(view.lift(exit)))
+            make(&ends(), PairKind::of_freedoms(true, slides), Some(view.lift(exit)))
         }
         Section::Free => {
             let angle = fits[0].arcs.iter().map(|a| a.1 - a.0).sum();
             Err(Loose::Arc { primitives: fits[0].primitives(), angle })
         }
+    }
+}
+
+/// What shafts and side faces leave. A part that leans on a stop may still turn the other way: only faces that forbid
+/// turning both ways count against a bearing.
+fn around_shafts(shafts: &[Wall], faces: &[Wall]) -> Section {
+    let all = [shafts, faces].concat();
+    match section(shafts) {
+        Section::Turning { center } if may_turn(faces, center) => Section::Turning { center },
+        Section::Turning { .. } => Section::Locked,
+        Section::TurningOpen { center, exit } if may_turn(faces, center) => {
+            Section::TurningOpen { center, exit }
+        }
+        _ => section(&all),
     }
 }
 
@@ -286,121 +292,4 @@ fn canonical_noise(v: Vec3) -> Vec3 {
 fn spread((from, to): (f64, f64)) -> impl Iterator<Item = f64> {
     let steps = ((to - from) / std::f64::consts::FRAC_PI_2).ceil().max(1.0) as usize;
     (0..=steps).map(move |k| from + (to - from) * k as f64 / steps as f64)
-}
-
-impl ShaftFit {
-    pub(crate) fn primitives(&self) -> [u32; 2] {
-        self.laterals.map(|l| l.id.primitive)
-    }
-
-    fn same_place(&self, other: &Self) -> bool {
-        let near =
-            |a: f64, b: f64| (a - b).abs() <= 1e-9 * self.laterals[0].height.max(self.laterals[0].radius);
-        let shift = (other.laterals[0].middle - self.laterals[0].middle).dot(self.laterals[0].direction);
-        let on_axis = off_line(other.laterals[0].middle, self.laterals[0].middle, self.laterals[0].direction);
-        near(on_axis, 0.0)
-            && near(self.laterals[self.solid].radius, other.laterals[other.solid].radius)
-            && near(self.span.0, other.span.0 + shift)
-            && near(self.span.1, other.span.1 + shift)
-    }
-
-    fn copy(&self) -> Self {
-        ShaftFit { arcs: self.arcs.clone(), ..*self }
-    }
-}
-
-impl PlanePatch {
-    fn same_place(&self, other: &Self) -> bool {
-        let size = self.area.sqrt();
-        let around = |p: &Self| Bounds::of_points(p.corners.iter().copied());
-        let (a, b) = (around(self), around(other));
-        self.normal.dot(other.normal) > 0.5
-            && (a.low - b.low).norm() <= 1e-9 * size
-            && (a.high - b.high).norm() <= 1e-9 * size
-            && (self.area - other.area).abs() <= 1e-9 * self.area
-    }
-
-    fn primitives(&self) -> [u32; 2] {
-        self.faces.map(|f| f.id.primitive)
-    }
-}
-
-impl Fit {
-    fn into_pair(self, scene: &Scene<'_>, solids: [&Solid<'_>; 2], parts: (usize, usize)) -> Found {
-        let d = self.direction;
-        let axis = AxisLine { point: foot(self.point, d, scene.tolerance), direction: d };
-        let surfaces = [0, 1].map(|i| self.surfaces(i, solids[i], scene.tolerance));
-        let gaps = self.patches.iter().filter(|p| perpendicular(p.normal, d)).map(|p| p.gap);
-        let clearance = self.fits.iter().map(|f| f.clearance).chain(gaps).fold(0.0, f64::max);
-        let clearance = if clearance <= scene.tolerance { 0.0 } else { clearance };
-        let pair = Pair {
-            kind: self.kind,
-            shape_kind: self.kind,
-            parts,
-            axis,
-            ratio: None,
-            clearance,
-            evidence: self.evidence(&axis),
-            dropped: vec![],
-            surfaces,
-        };
-        Found { pair, open: self.exit.is_some() }
-    }
-
-    /// Of coincident surfaces the first in the text speaks for all.
-    fn evidence(&self, axis: &AxisLine) -> Vec<Evidence> {
-        let mut list = Vec::new();
-        let note = |what, primitives| Evidence { what, primitives, text: String::new() };
-        for (k, fit) in self.fits.iter().enumerate() {
-            if self.fits[..k].iter().any(|f| f.same_place(fit)) {
-                continue;
-            }
-            let start = (fit.laterals[0].middle - axis.point).dot(axis.direction);
-            let angle = fit.arcs.iter().map(|a| a.1 - a.0).sum();
-            let radius = fit.laterals[fit.solid].radius;
-            let (from, to) = (start + fit.span.0, start + fit.span.1);
-            let (solid, clearance) = (fit.solid, fit.clearance);
-            let what = EvidenceKind::ShaftInHole { solid, radius, clearance, from, to, angle };
-            list.push(note(what, fit.primitives()));
-        }
-        for (k, p) in self.patches.iter().enumerate() {
-            if self.patches[..k].iter().any(|q| q.same_place(p)) {
-                continue;
-            }
-            let what = if perpendicular(p.normal, axis.direction) {
-                EvidenceKind::SideFaces { normal: p.normal, clearance: p.gap, area: p.area }
-            } else if parallel(p.normal, axis.direction) {
-                EvidenceKind::EndFaces { normal: p.normal, area: p.area }
-            } else {
-                continue;
-            };
-            list.push(note(what, p.primitives()));
-        }
-        if let Some(exit) = self.exit {
-            let primitives = list.first().map_or([0, 0], |e| e.primitives);
-            list.push(note(EvidenceKind::OpenSide { exit }, primitives));
-        }
-        list
-    }
-
-    /// Every surface of the part that coincides with one of the pair: it moves in itself with the pair.
-    fn surfaces(&self, i: usize, solid: &Solid<'_>, tolerance: f64) -> Vec<CurveId> {
-        let on_shaft = |l: &&super::surface::Lateral| {
-            self.fits.iter().map(|f| &f.laterals[i]).any(|f| {
-                (f.radius - l.radius).abs() <= tolerance
-                    && parallel(f.direction, l.direction)
-                    && super::surface::off_line(l.middle, f.middle, f.direction) <= tolerance
-            })
-        };
-        let on_face = |g: &&super::surface::Face| {
-            self.patches.iter().map(|p| &p.faces[i]).any(|f| {
-                parallel(f.normal, g.normal) && (f.middle - g.middle).dot(f.normal).abs() <= tolerance
-            })
-        };
-        let shafts = solid.laterals.iter().filter(on_shaft).map(|l| l.id);
-        let faces = solid.faces.iter().filter(on_face).map(|f| f.id);
-        let mut all: Vec<CurveId> = shafts.chain(faces).collect();
-        all.sort();
-        all
-    }
 }

@@ -48,6 +48,12 @@ pub(crate) fn section(walls: &[Wall]) -> Section {
     around_center(&walls, center)
 }
 
+/// Do the walls allow turning about a centre, one way at least?
+pub(crate) fn may_turn(walls: &[Wall], center: Vec2) -> bool {
+    let turn = [center.y, -center.x, 1.0];
+    [1.0, -1.0].into_iter().any(|sign| walls.iter().all(|w| sign * dot(unit(*w), turn) <= NEARLY_ZERO))
+}
+
 /// Walls of rank 3: the cone is given by its extreme rays, where two walls hold with equality.
 fn pointed(walls: &[Wall]) -> Section {
     let mut rays: Vec<Wall> = Vec::new();
