@@ -4,7 +4,7 @@
 use crate::search::CLOSED;
 use mainspring_mechanism::ContactId;
 
-/// Closings in a row, each after an excursion below 100 `CLOSED`, that make a chatter.
+/// Closings in a row, each after an excursion of no more than `CLOSED`, that make a chatter.
 const MANY: u32 = 4;
 
 /// The last closing of each contact.
@@ -23,7 +23,7 @@ impl Chatter {
         };
         // Thrown with about this rate and brought back: it went no further than rate · time / 4.
         let excursion = 0.25 * rate.abs() * (t - entry.1);
-        *entry = (id, t, if excursion <= 100.0 * CLOSED * size { entry.2 + 1 } else { 0 });
+        *entry = (id, t, if excursion <= 2.0 * CLOSED * size { entry.2 + 1 } else { 0 });
         entry.2 >= MANY
     }
 }

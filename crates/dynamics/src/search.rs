@@ -287,16 +287,26 @@ impl March<'_, '_> {
         Some(self.t.min(self.end))
     }
 
-    /// The time at which the gap falls to zero for good, between a time at which it is closed to rounding and one at
-    /// which it is negative.
+    /// The time at which the gap falls to zero for good, after a release at the first of the times `above`, between
+    /// the second, at which it is closed to rounding, and one at which it is negative.
     fn closes_between(
         &mut self,
         world: &mut World,
         c: &Candidate,
-        above: f64,
+        above: (f64, f64),
         below: f64,
         at: (&mut [f64], &mut [f64]),
     ) -> f64 {
+        let (start, mut above) = (above.0, above.1);
+        // The gap may have opened and closed again by less than can be told apart: look for a time when it was open.
+        for _ in 0..40 {
+            self.t = above;
+            let (touch, _) = self.touch(world, c, (&mut *at.0, &mut *at.1));
+            if self.gap(&touch) > 0.0 {
+                break;
+            }
+            above = start + 0.5 * (above - start);
+        }
         let (mut a, mut b) = (above, below);
         for _ in 0..60 {
             self.t = 0.5 * (a + b);
@@ -349,7 +359,7 @@ impl March<'_, '_> {
                 true
             }
             None if dt < self.end - start => {
-                self.t = self.closes_between(world, c, start + dt, start + 4.0 * dt, (q, v));
+                self.t = self.closes_between(world, c, (start, start + dt), start + 4.0 * dt, (q, v));
                 false
             }
             None => {
