@@ -3,7 +3,7 @@
 use super::axial;
 use super::fits::Solid;
 use super::gears::{GearData, meshes};
-use super::lower::lower_pairs;
+use super::lower::{MAX_MISSES, lower_pairs};
 use super::mechanism::{CompileOptions, Warning};
 use super::mobility::{ClosedChain, Loops, loops, without};
 use super::near_miss::Miss;
@@ -48,9 +48,12 @@ pub(crate) fn analyse(
     let (mut pairs, mut misses) = (lower.pairs, lower.misses);
     let meshes = meshes(gears, &pairs, scene.tolerance);
     pairs.extend(meshes.pairs);
+    let many = misses.len() > MAX_MISSES;
+    misses.truncate(MAX_MISSES);
     misses.extend(meshes.misses);
     let mut warnings: Vec<Warning> = meshes.warnings.into_iter().map(plain).collect();
     warnings.extend(lower.cut_short.iter().map(cut_short));
+    warnings.extend(many.then(|| plain(format!("only the first {MAX_MISSES} near misses are listed"))));
 
     let (loops, too_large) = loops(parts, frame, &pairs, size);
     warnings.extend(

@@ -43,6 +43,8 @@ pub(crate) struct ShaftMiss {
 const NEAR_RADIUS: f64 = 0.25;
 /// Axes further apart than this part of the radius are no near miss.
 const NEAR_OFFSET: f64 = 0.1;
+/// Cylinders on one axis further apart than this many times their heights are no near miss.
+const NEAR_GAP: f64 = 2.0;
 /// Face pairs examined for each pair of parts.
 const MAX_FACE_PAIRS: usize = 10_000;
 /// Of faces across the axis only the largest are examined.
@@ -73,7 +75,7 @@ pub(crate) fn shafts(
             }
             if cylinder_fit::common_span(a, b, scene.tolerance).is_none() {
                 let apart = (b.middle - a.middle).dot(a.direction).abs() - 0.5 * (a.height + b.height);
-                if difference <= scene.tolerance {
+                if difference <= scene.tolerance && apart <= NEAR_GAP * (a.height + b.height) {
                     misses.push(miss(Some(apart.max(0.0)), [Seen::default(); 2]));
                 }
                 continue;

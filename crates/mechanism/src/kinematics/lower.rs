@@ -20,6 +20,9 @@ pub(crate) struct Lower {
 /// A point is on a surface within this part of the machine's size.
 pub(crate) const RELATIVE_TOLERANCE: f64 = 1e-9;
 
+/// Near misses told of one machine.
+pub(crate) const MAX_MISSES: usize = 200;
+
 /// The part's solid and its surfaces.
 pub(crate) fn solid<'a>(primitives: &[Primitive], boxes: &[Bounds], csg: &'a Csg) -> Solid<'a> {
     let mut leaves: Vec<u32> = csg.leaves().collect();
@@ -39,7 +42,10 @@ pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f6
     for j in 1..solids.len() {
         for i in 0..j {
             let finding = search::find(scene, [&solids[i], &solids[j]], (i, j), clearance);
-            findings.push(((i, j), finding));
+            let near = solids[i].bounds.touches(&solids[j].bounds);
+            if near || finding.says_something() {
+                findings.push(((i, j), finding));
+            }
         }
     }
     findings.sort_by_key(|(parts, _)| *parts);
@@ -53,6 +59,7 @@ pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f6
             found.extend(search::with_more_play(scene, pair).map(|(p, play)| Miss::play(*parts, p, play)));
         }
         misses.extend(found);
+        misses.truncate(MAX_MISSES + 1);
     }
     let cut_short = findings.iter().filter(|(_, f)| f.too_many_faces).map(|(parts, _)| *parts).collect();
     let pairs = findings.into_iter().filter_map(|(_, f)| f.pair).map(|f| f.pair).collect();

@@ -46,15 +46,21 @@ pub(crate) fn loops(parts: usize, frame: usize, pairs: &[Pair], size: f64) -> (V
 /// What is left when parts with a single pair are taken away again and again.
 fn core_parts(parts: usize, frame: usize, pairs: &[Pair]) -> Vec<bool> {
     let mut present = vec![true; parts];
-    for _ in 0..parts {
-        let degree = |p: usize| {
-            pairs.iter().filter(|q| (q.parts.0 == p || q.parts.1 == p) && present[q.other(p)]).count()
-        };
-        let loose: Vec<usize> = (0..parts).filter(|&p| present[p] && p != frame && degree(p) < 2).collect();
-        if loose.is_empty() {
-            break;
+    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); parts];
+    for p in pairs {
+        neighbours[p.parts.0].push(p.parts.1);
+        neighbours[p.parts.1].push(p.parts.0);
+    }
+    let mut degree: Vec<usize> = neighbours.iter().map(Vec::len).collect();
+    let mut loose: Vec<usize> = (0..parts).filter(|&p| p != frame && degree[p] < 2).collect();
+    while let Some(p) = loose.pop() {
+        present[p] = false;
+        for &q in neighbours[p].iter().filter(|&&q| present[q]) {
+            degree[q] -= 1;
+            if degree[q] == 1 && q != frame {
+                loose.push(q);
+            }
         }
-        loose.into_iter().for_each(|p| present[p] = false);
     }
     present
 }

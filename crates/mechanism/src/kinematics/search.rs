@@ -27,6 +27,12 @@ pub(crate) struct Finding {
     pub too_many_faces: bool,
 }
 
+impl Finding {
+    pub(crate) fn says_something(&self) -> bool {
+        self.pair.is_some() || self.loose.is_some() || !self.misses.is_empty()
+    }
+}
+
 #[derive(Debug)]
 pub(crate) struct Found {
     pub pair: Pair,
@@ -52,6 +58,9 @@ pub(crate) fn find(
 ) -> Finding {
     let (fits, misses) = shafts(scene, solids, clearance);
     let mut finding = Finding { misses, ..Finding::default() };
+    if !solids[0].bounds.grown(clearance + scene.tolerance).touches(&solids[1].bounds) {
+        return finding;
+    }
     let found = match fits.first() {
         Some(first) => {
             let d = first.laterals[0].direction;
@@ -78,7 +87,9 @@ const MAX_NEAR_FACES: usize = 400;
 /// Would the faces of two parts make a pair if some play were allowed? The primitives and the play.
 pub(crate) fn with_more_play(scene: &Scene<'_>, solids: [&Solid<'_>; 2]) -> Option<([u32; 2], f64)> {
     let play = NEAR_PLAY * solids[0].bounds.diagonal().min(solids[1].bounds.diagonal());
-    if face_pairs(solids, play, |_| true).len() > MAX_NEAR_FACES {
+    if !solids[0].bounds.grown(play).touches(&solids[1].bounds)
+        || face_pairs(solids, play, |_| true).len() > MAX_NEAR_FACES
+    {
         return None;
     }
     let fit = faces_only(scene, solids, play).ok()??;
