@@ -160,6 +160,8 @@ fn why(miss: &ShaftMiss, has_pair: bool, tolerance: f64) -> Option<(u8, Why)> {
 
 fn loose(parts: (usize, usize), loose: &Loose) -> Miss {
     let (primitives, why) = match *loose {
+        // Held all round and yet not: other shafts and faces leave no single motion.
+        Loose::Arc { primitives, angle } if angle > std::f64::consts::PI + 1e-6 => (primitives, Why::Faces),
         Loose::Arc { primitives, angle } => (primitives, Why::Arc { degrees: angle.to_degrees() }),
         Loose::Faces { primitives } => (primitives, Why::Faces),
         Loose::OffCentre { primitives, plays } => (primitives, Why::OffCentre { plays }),
@@ -209,7 +211,7 @@ impl Miss {
                     n(degrees)
                 )
             }
-            Why::Faces => "faces meet on opposite sides, but leave more than one motion free".into(),
+            Why::Faces => "their surfaces meet on opposite sides, but leave no single motion".into(),
             Why::OffCentre { plays: (a, b) } => {
                 format!("the play on opposite sides differs: {} and {}", n(a), n(b))
             }
