@@ -1,6 +1,9 @@
 //! Machines for the tests, with joints given by hand: contact is tested without relying on what finds the joints.
 #![allow(dead_code)]
 
+pub mod overlap;
+
+use mainspring_dynamics::{Minimum, Options, Run, Simulation};
 use mainspring_geometry::{OutlineRecipe, Rigid3, Vec2};
 use mainspring_mechanism::{Body, Coordinate, Exclusion, Joint, Motion, System};
 use mainspring_model::Machine;
@@ -72,18 +75,67 @@ pub fn journals(bodies: &[Body]) -> Vec<Exclusion> {
     found
 }
 
-/// The escapement of Fig. 12 with the supplement of Fig. 13, its joints given.
-pub fn escapement() -> System {
-    let text = include_str!("../../../../examples/escapement/escapement.padl");
+/// The coordinates of the escapement with the supplement of Fig. 13: wheel, lever, balance.
+pub fn fig_13() -> Vec<Coordinate> {
     let degree = std::f64::consts::PI / 180.0;
-    let coordinates = vec![
+    vec![
         coordinate("ewheel", 200.0, 20.0, (20.0, -10000.0 * degree)),
         coordinate("lever", 10.0, 5.0, (0.0, 0.0)),
         coordinate("bwheel", 20.0, 6.0, (15.0, 90.0 * degree)),
-    ];
+    ]
+}
+
+/// The escapement of Fig. 12 with the supplement of Fig. 13, its joints given.
+pub fn escapement() -> System {
+    escapement_with(fig_13())
+}
+
+/// The escapement of Fig. 12 with other inertias, friction or springs.
+pub fn escapement_with(coordinates: Vec<Coordinate>) -> System {
+    let text = include_str!("../../../../examples/escapement/escapement.padl");
     let joints =
         [("ewheel", turn(0, 0.0, 0.0)), ("lever", turn(1, 0.0, 7.5)), ("bwheel", turn(2, 0.0, 20.0))];
     let bodies = bodies(text, &joints);
     let exclusions = journals(&bodies);
     System::new(coordinates, bodies, &exclusions, 31.0)
+}
+
+/// A system of bodies without surfaces of lower pairs.
+pub fn system(coordinates: Vec<Coordinate>, text: &str, joints: &[(&str, Joint)], size: f64) -> System {
+    System::new(coordinates, bodies(text, joints), &[], size)
+}
+
+/// Runs to a time with a tolerance.
+pub fn run(system: &System, until: f64, rtol: f64) -> Run {
+    let source = system.direct_search();
+    let mut run = Simulation::new(system, &source, Options { until, rtol, ..Options::default() });
+    run.run(&mut |_| true);
+    run.into_run()
+}
+
+/// Minima below 1e-5 of the greatest kinetic energy so far (those of Algorithm 12).
+pub fn low_minima(run: &Run) -> Vec<&Minimum> {
+    run.minima.iter().filter(|m| m.energy < 1e-5 * m.top).collect()
+}
+
+/// Asserts `|a − b| ≤ tolerance` and says how far off.
+pub fn close(a: f64, b: f64, tolerance: f64) {
+    assert!((a - b).abs() <= tolerance, "{a} is {:e} off {b}, allowed {tolerance:e}", (a - b).abs());
+}
+
+/// Asserts an energy account that balances to 1e-7.
+pub fn balanced(run: &Run) {
+    let residual = run.energy.residual();
+    assert!(residual.abs() < 1e-7, "energy residual {residual:e}: {:?}", run.energy);
+    assert!(run.energy.friction >= 0.0 && run.energy.impacts >= 0.0, "{:?}", run.energy);
+}
+
+/// A generator of numbers in [low, high) that is the same everywhere.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
 }
