@@ -73,17 +73,18 @@ impl Component {
 
     /// Forces of the contacts, and accelerations of all coordinates they touch added to `acceleration`. None if
     /// the contacts are not independent here.
-    pub fn forces(
+    pub fn forces_of(
         &self,
-        world: &mut World,
+        world: &World,
+        touches: &[Touch],
         q: &[f64],
         v: &[f64],
         acceleration: &mut [f64],
     ) -> Option<Vec<f64>> {
+        let coordinates = &world.system.coordinates;
         for &i in &self.coordinates {
-            acceleration[i] = world.system.coordinates[i].free_acceleration(q[i], v[i]);
+            acceleration[i] = coordinates[i].free_acceleration(q[i], v[i]);
         }
-        let touches = self.touches(world, q);
         let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
         let mut lambda: Vec<f64> =
             touches.iter().zip(&rows).map(|(t, row)| -(row.dot(acceleration) + t.bias(v))).collect();
@@ -214,7 +215,8 @@ impl Equations for ComponentEquations<'_, '_> {
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
-        match self.component.forces(self.world, &self.q, &self.v, &mut self.acceleration) {
+        let touches = self.component.touches(self.world, &self.q);
+        match self.component.forces_of(self.world, &touches, &self.q, &self.v, &mut self.acceleration) {
             Some(lambda) => {
                 for (flag, l) in self.pulling.iter_mut().zip(lambda) {
                     *flag |= l < 0.0;

@@ -27,7 +27,7 @@ impl Change {
 }
 
 /// Samples of a stretch in which a change is looked for.
-const SAMPLES: u32 = 4;
+const SAMPLES: u32 = 3;
 
 /// The first change of a component's contacts over the stretch.
 pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch) -> Option<(f64, Change)> {
@@ -37,10 +37,10 @@ pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch)
     let mut before = stretch.from;
     for k in 1..=SAMPLES {
         let t = stretch.from + (stretch.to - stretch.from) * f64::from(k) / f64::from(SAMPLES);
-        let measures = probe.measure(world, t);
+        let measures = probe.measure_all(world, t);
         let failing: Vec<usize> = (0..measures.len()).filter(|&i| measures[i] < 0.0).collect();
         if !failing.is_empty() {
-            let found = failing.iter().map(|&i| (probe.zero(world, i, before, t), i));
+            let found = failing.iter().map(|&i| (probe.zero(world, i, before, (t, measures[i])), i));
             let (t, i) = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
             let id = component.contacts[i / 2].id;
             return Some((t, if i % 2 == 0 { Change::Unloaded(id) } else { Change::RanOff(id) }));
@@ -59,42 +59,60 @@ struct Probe<'c, 's, 'p> {
 }
 
 impl Probe<'_, '_, '_> {
-    /// Force and margin of every contact in turn: a contact stays while both are positive.
-    fn measure(&mut self, world: &mut World, t: f64) -> Vec<f64> {
-        self.stretch.state(t, &mut self.q, &mut self.v);
-        let size = world.system.size;
-        let margins: Vec<f64> =
-            self.component.touches(world, &self.q).iter().map(|touch| touch.margin(size)).collect();
-        let forces = self.component.forces(world, &self.q, &self.v, &mut self.acceleration);
-        let forces = forces.unwrap_or_else(|| vec![0.0; margins.len()]);
-        forces.into_iter().zip(margins).flat_map(|(force, margin)| [force, margin]).collect()
+    fn move_to(&mut self, t: f64) {
+        for &i in &self.component.coordinates {
+            let state = self.stretch.paths[i].at(t);
+            (self.q[i], self.v[i]) = (state.q, state.v);
+        }
     }
 
-    /// The time between `good` and `bad` at which measure `i` turns negative.
-    fn zero(&mut self, world: &mut World, i: usize, good: f64, bad: f64) -> f64 {
-        let (mut a, mut b) = (good, bad);
-        let (mut fa, mut fb) = (self.measure(world, a)[i], self.measure(world, b)[i]);
+    /// Force and margin of every contact in turn: a contact stays while both are positive.
+    fn measure_all(&mut self, world: &mut World, t: f64) -> Vec<f64> {
+        self.move_to(t);
+        let size = world.system.size;
+        let touches = self.component.touches(world, &self.q);
+        let forces = self.component.forces_of(world, &touches, &self.q, &self.v, &mut self.acceleration);
+        let forces = forces.unwrap_or_else(|| vec![0.0; touches.len()]);
+        forces.into_iter().zip(&touches).flat_map(|(force, t)| [force, t.margin(size)]).collect()
+    }
+
+    /// One of them; a margin needs its own contact only.
+    fn measure(&mut self, world: &mut World, i: usize, t: f64) -> f64 {
+        if i % 2 == 0 {
+            return self.measure_all(world, t)[i];
+        }
+        self.move_to(t);
+        let size = world.system.size;
+        world.touch(&self.component.contacts[i / 2], &self.q).margin(size)
+    }
+
+    /// The time after `good` at which measure `i` turns negative, given a later time at which it is: regula falsi of
+    /// Illinois, to the grain of the clock.
+    fn zero(&mut self, world: &mut World, i: usize, good: f64, bad: (f64, f64)) -> f64 {
+        let (mut a, mut fa) = (good, self.measure(world, i, good));
+        let (mut b, mut fb) = bad;
         if fa <= 0.0 {
             return a;
         }
+        let mut last_negative = None;
         for k in 0..100 {
             if b - a <= 4.0 * f64::EPSILON * (1.0 + b.abs()) {
                 break;
             }
-            // Regula falsi of Illinois, with a bisection now and then.
-            let t = if k % 4 == 3 { 0.5 * (a + b) } else { b - fb * (b - a) / (fb - fa) };
-            let t = t.clamp(a, b);
-            let f = self.measure(world, t)[i];
+            let secant = b - fb * (b - a) / (fb - fa);
+            let t = if k % 8 == 7 { 0.5 * (a + b) } else { secant }.clamp(a, b);
+            let f = self.measure(world, i, t);
             if f < 0.0 {
                 (b, fb) = (t, f);
-                fa *= 0.5;
+                fa *= if last_negative == Some(true) { 0.5 } else { 1.0 };
             } else {
                 (a, fa) = (t, f);
-                fb *= 0.5;
+                fb *= if last_negative == Some(false) { 0.5 } else { 1.0 };
             }
-            if f == 0.0 {
-                break;
+            if f == 0.0 || (k > 0 && f.abs() <= 1e-15 * world.system.size && i % 2 == 1) {
+                return t;
             }
+            last_negative = Some(f < 0.0);
         }
         b
     }
