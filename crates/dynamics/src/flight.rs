@@ -99,7 +99,8 @@ impl Flight {
         let (a2, w) = (2.0 * self.half_decay, self.stiffness);
         let (mut before, mut last) = (0.0, 1.0);
         let (mut s, mut ds, mut r) = (0.0, 0.0, 0.0);
-        let mut power = 1.0;
+        // Without friction every other term is zero: two in a row must be small.
+        let (mut power, mut term_before) = (1.0, f64::INFINITY);
         for n in 1..24 {
             // `last` is S⁽ⁿ⁾(0), `power` is τⁿ⁻¹/(n−1)!.
             let n = f64::from(n);
@@ -107,9 +108,10 @@ impl Flight {
             s += last * power * tau / n;
             let term = last * power * tau * tau / (n * (n + 1.0));
             r += term;
-            if term.abs() <= 1e-18 * r.abs() && n > 3.0 {
+            if term.abs() + f64::abs(term_before) <= 1e-18 * r.abs() {
                 break;
             }
+            term_before = term;
             power *= tau / n;
             (before, last) = (last, -a2 * last - w * before);
         }
