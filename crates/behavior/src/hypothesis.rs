@@ -27,6 +27,25 @@ impl Default for MatchOptions {
     }
 }
 
+/// How a coordinate is called in reasons.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    pub name: String,
+    /// Told in degrees if it turns.
+    pub turns: bool,
+}
+
+impl Label {
+    fn says(&self, what: &str, found: f64, expected: f64) -> String {
+        let name = &self.name;
+        if self.turns {
+            let (found, expected) = (found.to_degrees(), expected.to_degrees());
+            return format!("{name} {what} {found:.4}°, expected {expected:.4}°");
+        }
+        format!("{name} {what} {found:.6}, expected {expected:.6}")
+    }
+}
+
 /// A point of comparison: a state, and how far the state ranged since the point before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
@@ -93,7 +112,7 @@ impl Series {
     pub fn add(
         &mut self,
         point: Point,
-        names: &[String],
+        names: &[Label],
         floors: &Floors,
         options: &MatchOptions,
     ) -> Option<Pattern> {
@@ -167,7 +186,7 @@ impl Series {
         &self,
         c: &Candidate,
         end: usize,
-        names: &[String],
+        names: &[Label],
         floors: &Floors,
         options: &MatchOptions,
     ) -> Option<String> {
@@ -178,15 +197,17 @@ impl Series {
         }
         let mut ranges = self.points[end].ranges.clone();
         (end + 1 - c.minima..end).for_each(|k| ranges.merge(&self.points[k].ranges));
-        let name = |i: usize| names.get(i).map_or("", String::as_str);
+        let text = |i: usize, what: &str, found: f64, expected: f64| match names.get(i) {
+            Some(label) => label.says(what, found, expected),
+            None => String::new(),
+        };
         for (i, (found, expected)) in change(a, b).into_iter().zip(&c.change).enumerate() {
             let spans = (ranges.q[i].1 - ranges.q[i].0, ranges.v[i].1 - ranges.v[i].0);
             if (found.0 - expected.0).abs() > (options.state_match * spans.0).max(floors.q[i]) {
-                return Some(format!("{} moved by {:.6}, expected {:.6}", name(i), found.0, expected.0));
+                return Some(text(i, "moved by", found.0, expected.0));
             }
             if (found.1 - expected.1).abs() > (options.state_match * spans.1).max(floors.v[i]) {
-                let text = "changed its velocity by";
-                return Some(format!("{} {text} {:.6}, expected {:.6}", name(i), found.1, expected.1));
+                return Some(text(i, "changed its velocity by", found.1, expected.1));
             }
         }
         None
@@ -201,7 +222,7 @@ fn change(a: &Point, b: &Point) -> Vec<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Floors, MatchOptions, Point, Series};
+    use super::{Floors, Label, MatchOptions, Point, Series};
     use mainspring_dynamics::Ranges;
 
     /// A pattern of M points: gaps between points repeat with period M, the position climbs by 1 each pattern.
@@ -234,7 +255,12 @@ mod tests {
         let floors = Floors { q: vec![0.0], v: vec![0.0] };
         let mut series = Series::default();
         for k in 0..40 {
-            series.add(point(k, 5), &["wheel".into()], &floors, &MatchOptions::default());
+            series.add(
+                point(k, 5),
+                &[Label { name: "wheel".into(), turns: true }],
+                &floors,
+                &MatchOptions::default(),
+            );
         }
         let formed: Vec<usize> = series.hypotheses.iter().map(|h| h.minima).collect();
         assert_eq!(formed, vec![1, 2, 3, 4, 5]);

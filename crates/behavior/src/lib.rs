@@ -5,7 +5,7 @@ mod options;
 mod passages;
 mod predict;
 
-pub use hypothesis::{Floors, Hypothesis, MatchOptions, Pattern, Point, Series};
+pub use hypothesis::{Floors, Hypothesis, Label, MatchOptions, Pattern, Point, Series};
 pub use options::PredictOptions;
 pub use passages::whole_turns;
 pub use predict::{Basis, NoPattern, Outcome, Prediction, predict};

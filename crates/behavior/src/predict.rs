@@ -4,11 +4,12 @@
 //! prominent minima; whole turns of a coordinate. A later series counts only if no point of an earlier one falls into
 //! the instances that support its pattern.
 
-use crate::hypothesis::{Floors, Hypothesis, Pattern, Point, Series};
+use crate::hypothesis::{Floors, Hypothesis, Label, Pattern, Point, Series};
 use crate::options::PredictOptions;
 use crate::passages::whole_turns;
 use mainspring_dynamics::{Closed, Minimum, Options, Ranges, Run, Simulation, Status, Track};
-use mainspring_mechanism::{ContactSource, Motion, System};
+use mainspring_mechanism::{ContactSource, Coordinate, Motion, System};
+use std::f64::consts::TAU;
 
 /// What kind of points a pattern was read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +70,7 @@ pub fn predict(
     let limits = Options { until: options.max_time, rtol: options.rtol, max_steps: options.max_steps };
     let mut run = Simulation::new(system, source, limits);
     run.track = Some(Track::empty(system.coordinates.len()));
+    run.longest_stretch = look_every(system);
     let mut follower = Follower::new(system, &run, options);
     let outcome = loop {
         if let Some(status) = run.advance() {
@@ -85,10 +87,27 @@ pub fn predict(
     Prediction { outcome, hypotheses, run: run.into_run() }
 }
 
+/// How long to run between looks: twenty of the machine's longest own times.
+fn look_every(system: &System) -> f64 {
+    let own = |c: &Coordinate| {
+        if c.stiffness > 0.0 {
+            TAU * (c.inertia / c.stiffness).sqrt()
+        } else if c.damping > 0.0 {
+            c.inertia / c.damping
+        } else if c.velocity != 0.0 {
+            TAU / c.velocity.abs()
+        } else {
+            0.0
+        }
+    };
+    let longest = system.coordinates.iter().map(own).fold(0.0, f64::max);
+    if longest > 0.0 { 20.0 * longest } else { f64::INFINITY }
+}
+
 struct Follower<'o> {
     options: &'o PredictOptions,
     system: &'o System,
-    names: Vec<String>,
+    names: Vec<Label>,
     /// One for each basis, in its order.
     series: [Series; 3],
     /// Ranges since the last point of each series.
@@ -113,7 +132,9 @@ impl<'o> Follower<'o> {
         Self {
             options,
             system,
-            names: system.coordinates.iter().map(|c| c.name.clone()).collect(),
+            names: (0..n)
+                .map(|i| Label { name: system.coordinates[i].name.clone(), turns: turns(&i) })
+                .collect(),
             series: std::array::from_fn(|_| Series::default()),
             ranges: std::array::from_fn(|_| Ranges::empty(n)),
             seen: 0,
@@ -132,6 +153,11 @@ impl<'o> Follower<'o> {
         let energy = mainspring_dynamics::kinetic(self.system, &run.v);
         self.least_energy = self.least_energy.min(energy);
         run.track = Some(Track { ranges: Ranges::empty(self.names.len()), ..track });
+        // Tested before any fallback: energy that never changes gives nothing to go by.
+        let quiet = self.series[0].points.is_empty() && self.series[1].points.is_empty();
+        if outcome.is_none() && quiet && run.t >= 2.0 * run.longest_stretch && self.is_constant(run) {
+            return Some(Outcome::NoPattern(NoPattern::ConstantKineticEnergy));
+        }
         let most = self.options.max_minima;
         let full = self.series.iter().any(|s| s.points.len() >= most);
         outcome.or_else(|| full.then_some(Outcome::NoPattern(NoPattern::TooManyMinima)))
@@ -245,6 +271,9 @@ impl<'o> Follower<'o> {
 
     /// Hypotheses of the series that decided, or of the first that formed any.
     fn hypotheses(&self, outcome: &Outcome) -> Vec<Hypothesis> {
+        if *outcome == Outcome::NoPattern(NoPattern::ConstantKineticEnergy) {
+            return vec![];
+        }
         let chosen = match outcome {
             Outcome::Repeats { basis, .. } => *basis as usize,
             _ => self.series.iter().position(|s| !s.hypotheses.is_empty()).unwrap_or(0),

@@ -13,7 +13,7 @@ use crate::search::{CLOSED, Stretch, Watch, first_closing};
 use crate::settle::{Closed, Instant, Settled, groups, settle};
 use crate::watch::{Change, first_change};
 use crate::world::World;
-use mainspring_mechanism::{ContactId, ContactSource, Row, System};
+use mainspring_mechanism::{ContactId, ContactSource, Coordinate, Row, System};
 
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,6 +107,8 @@ pub struct Simulation<'a> {
     chattering: Option<f64>,
     components: Vec<(Component, f64)>,
     next_step: f64,
+    /// Longest time between looks at the motion; infinite unless an observer wants to stop early.
+    pub longest_stretch: f64,
     at_once: u32,
     pub trajectory: Trajectory,
     pub events: Vec<Event>,
@@ -141,6 +143,7 @@ impl<'a> Simulation<'a> {
             chattering: None,
             components: vec![],
             next_step: options.until,
+            longest_stretch: f64::INFINITY,
             at_once: 0,
             trajectory: Trajectory { pieces: vec![vec![]; n], times: vec![0.0] },
             events: vec![],
@@ -201,7 +204,7 @@ impl<'a> Simulation<'a> {
 
     /// Gives every moving component a path beyond the present; returns the end of the common stretch.
     fn integrate(&mut self) -> Option<f64> {
-        let mut to = self.options.until;
+        let mut to = self.options.until.min(self.t + self.longest_stretch);
         for k in 0..self.components.len() {
             if self.components[k].1 <= self.t {
                 let tolerance = Tolerance {
@@ -421,9 +424,31 @@ impl<'a> Simulation<'a> {
         (self.paths[i], self.since[i]) = (path, self.t);
     }
 
-    /// Everything rests, or flies with next to no energy left.
-    fn is_at_rest(&self) -> bool {
-        self.components.is_empty() && self.free_energy(self.t) <= AT_REST * self.minima.top
+    /// Everything rests, or moves with next to no energy left above its equilibrium.
+    fn is_at_rest(&mut self) -> bool {
+        let level = AT_REST * self.minima.top;
+        if kinetic(self.world.system, &self.v) > level || self.free_energy(self.t) > level {
+            return false;
+        }
+        let mut components = std::mem::take(&mut self.components);
+        let quiet = components.iter().all(|(component, _)| self.is_quiet(component, level));
+        if !quiet {
+            std::mem::swap(&mut self.components, &mut components);
+        }
+        quiet
+    }
+
+    /// Would the accelerations of a component, over the times of its springs, give it no more energy than `level`?
+    fn is_quiet(&mut self, component: &Component, level: f64) -> bool {
+        let touches = component.touches(&mut self.world, &self.q);
+        let mut a = vec![0.0; self.q.len()];
+        if component.forces_of(&self.world, &touches, &self.q, &self.v, &mut a).is_none() {
+            return false;
+        }
+        let system = self.world.system;
+        let own = || component.coordinates.iter().map(|&i| (&system.coordinates[i], a[i]));
+        let square = own().map(|(c, _)| natural_time(c).powi(2)).fold(0.0, f64::max);
+        own().map(|(c, a)| 0.5 * c.inertia * a * a * square).sum::<f64>() <= level
     }
 
     /// Energy that flights still hold above their equilibria, at time `t` along the present paths. Infinite when
@@ -433,7 +458,7 @@ impl<'a> Simulation<'a> {
         coordinates
             .iter()
             .zip(&self.paths)
-            .filter(|(_, path)| !path.is_rest())
+            .filter(|(_, path)| matches!(path, Path::Flight(_)))
             .map(|(c, path)| {
                 let State { q, v } = path.at(t);
                 let away = if c.stiffness > 0.0 {
@@ -499,6 +524,17 @@ impl<'a> Simulation<'a> {
         self.stats.gap_evaluations = self.world.evaluations;
         self.status = Some(status);
         status
+    }
+}
+
+/// The time in which a coordinate's springs or friction act: √(I/k), or I/h, or 1.
+fn natural_time(c: &Coordinate) -> f64 {
+    if c.stiffness > 0.0 {
+        (c.inertia / c.stiffness).sqrt()
+    } else if c.damping > 0.0 {
+        c.inertia / c.damping
+    } else {
+        1.0
     }
 }
 

@@ -62,7 +62,7 @@ impl PredictionResult {
             "pattern": self.pattern(),
             "starts": self.starts(),
             "rest": self.rest(),
-            "simulated_seconds": self.run.run().t,
+            "simulated_seconds": self.known_at(),
             "hypotheses": self.hypotheses.iter().map(hypothesis).collect::<Vec<_>>(),
             "sentences": sentences(self),
             "stats": self.run.stats(false),
@@ -88,6 +88,14 @@ impl PredictionResult {
         let (q, v) = (part(0), part(1));
         let value = |map: &Value, name: &str| map[name].as_f64().unwrap_or(0.0);
         self.run.parts().into_iter().map(|n| (n.clone(), value(&q, &n), value(&v, &n))).collect()
+    }
+
+    /// When it was known: the confirming point, or the end of the run.
+    fn known_at(&self) -> f64 {
+        match &self.outcome {
+            Outcome::Repeats { pattern, start, .. } => start.t + pattern.duration,
+            _ => self.run.run().t,
+        }
     }
 
     fn pattern(&self) -> Value {
