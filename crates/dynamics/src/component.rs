@@ -4,7 +4,7 @@
 //! dead points need no care; after each step positions and velocities are projected back onto g = 0, G q̇ = 0.
 
 use crate::flight::Bounds;
-use crate::linear::Cholesky;
+use crate::linear::{Cholesky, Small};
 use crate::path::Path;
 use crate::runge_kutta::{Equations, Step};
 use crate::settle::{add_forces, inverse_inertia};
@@ -61,9 +61,9 @@ impl Component {
     }
 
     /// Evaluates the component's contacts at `q`.
-    pub fn touches<'a>(&self, world: &mut World<'a>, q: &[f64]) -> Vec<Touch<'a>> {
+    pub fn touches<'a>(&self, world: &mut World<'a>, q: &[f64]) -> Small<Touch<'a>> {
         let system = world.system;
-        let placed: Vec<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
+        let placed: Small<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
         self.contacts
             .iter()
             .zip(&self.sides)
@@ -80,13 +80,13 @@ impl Component {
         q: &[f64],
         v: &[f64],
         acceleration: &mut [f64],
-    ) -> Option<Vec<f64>> {
+    ) -> Option<Small<f64>> {
         let coordinates = &world.system.coordinates;
         for &i in &self.coordinates {
             acceleration[i] = coordinates[i].free_acceleration(q[i], v[i]);
         }
-        let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
-        let mut lambda: Vec<f64> =
+        let rows: Small<Row> = touches.iter().map(Touch::row).collect();
+        let mut lambda: Small<f64> =
             touches.iter().zip(&rows).map(|(t, row)| -(row.dot(acceleration) + t.bias(v))).collect();
         let factor = Cholesky::new(inverse_inertia(world.system, &rows), rows.len())?;
         factor.solve_in_place(&mut lambda);
@@ -117,7 +117,7 @@ impl Component {
             let mut equations = ComponentEquations::new(self, world, q, v);
             let scale = self.scale(&equations.start_acceleration(t, &y), h, tolerance);
             let error = step.attempt(&mut equations, t, &y, h, &scale);
-            let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 6.0) } else { 0.1 };
+            let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
                 let pulling = equations.pulling.clone();
                 let dense = step.dense(&mut equations, t, &y, h);
@@ -164,7 +164,7 @@ impl Component {
     pub fn project(&self, world: &mut World, q: &mut [f64], v: &mut [f64]) {
         for _ in 0..3 {
             let touches = self.touches(world, q);
-            let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
+            let rows: Small<Row> = touches.iter().map(Touch::row).collect();
             let Some(factor) = Cholesky::new(inverse_inertia(world.system, &rows), rows.len()) else {
                 return;
             };

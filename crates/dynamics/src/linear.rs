@@ -1,15 +1,18 @@
 //! Dense symmetric systems of a few unknowns.
 
+/// A list that stays off the heap while it is short.
+pub type Small<T, const N: usize = 4> = smallvec::SmallVec<[T; N]>;
+
 /// A factor `L Lᵀ` of a positive definite matrix.
 #[derive(Clone, Debug)]
 pub struct Cholesky {
-    factor: Vec<f64>,
+    factor: Small<f64, 16>,
     n: usize,
 }
 
 impl Cholesky {
     /// Factors an `n × n` matrix in row order; None when a pivot falls below 1e-12 of its diagonal entry.
-    pub fn new(mut a: Vec<f64>, n: usize) -> Option<Self> {
+    pub fn new(mut a: Small<f64, 16>, n: usize) -> Option<Self> {
         for j in 0..n {
             let diagonal = a[j * n + j];
             for k in 0..j {

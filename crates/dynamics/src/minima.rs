@@ -147,7 +147,9 @@ impl Motion<'_> {
             samples.push(middle);
             return;
         }
-        let short = depth >= 5 && self.is_monotone(from, to);
+        // A step of the integrator is smooth: few samples tell its shape.
+        let smooth = self.paths.iter().all(|p| p.is_rest() || matches!(p, Path::Step { .. }));
+        let short = (smooth || depth >= 3) && self.is_monotone(from, to);
         if !short {
             self.subdivide(from, middle.t, depth + 1, samples);
         }
@@ -161,7 +163,7 @@ impl Motion<'_> {
     /// one sign at five places.
     fn is_monotone(&self, from: f64, to: f64) -> bool {
         let powers: Vec<f64> =
-            (0..=8).map(|k| self.sample(from + (to - from) * f64::from(k) / 8.0).power).collect();
+            (0..=4).map(|k| self.sample(from + (to - from) * f64::from(k) / 4.0).power).collect();
         powers.windows(2).all(|p| p[1] >= p[0]) || powers.windows(2).all(|p| p[1] <= p[0])
     }
 

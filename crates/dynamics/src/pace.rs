@@ -31,9 +31,20 @@ impl Pace {
         pace
     }
 
+    /// The same for features whose lever arms are these shares of the greatest.
+    pub fn shared(&self, shares: [f64; 2]) -> Self {
+        let scale = |x: [f64; 2]| [x[0] * shares[0], x[1] * shares[1]];
+        Self { speed: scale(self.speed), acceleration: scale(self.acceleration), ..*self }
+    }
+
     /// Greatest speed at which features of the two bodies approach.
     pub fn total(&self) -> f64 {
         self.speed[0] + self.speed[1]
+    }
+
+    /// Greatest acceleration of features of the two bodies along their paths.
+    pub fn acceleration(&self) -> f64 {
+        self.acceleration[0] + self.acceleration[1]
     }
 
     /// A bound of |ġ|, as for `curvature`.

@@ -2,6 +2,7 @@
 //! Contacts whose features stay apart by their lever arms alone are not evaluated at all.
 
 use crate::flight::State;
+use crate::linear::Small;
 use crate::march::{March, Now, Real};
 use crate::pace::Pace;
 use crate::path::Path;
@@ -68,20 +69,50 @@ pub struct Found {
     pub clear_until: f64,
 }
 
-/// The first contact to close over the stretch, by time and then by identity.
+/// The first contact to close over the stretch, by time and then by identity. The stretch is searched in pieces that
+/// double, all interactions in each: what closes first ends the search before others are followed far beyond it.
 pub fn first_closing(
     world: &mut World,
     stretch: &Stretch,
     watched: &[(ContactId, Watch)],
     real: Real,
 ) -> Found {
+    let moves =
+        |world: &World, i: usize| world.arms[i].iter().any(|a| !stretch.paths[a.coordinate].is_rest());
+    let moving: Small<usize> = (0..world.arms.len()).filter(|&i| moves(world, i)).collect();
     let mut found = Found { closing: None, clear_until: stretch.to };
-    for interaction in 0..world.arms.len() {
-        if world.arms[interaction].iter().any(|arm| !stretch.paths[arm.coordinate].is_rest()) {
-            look_along(world, interaction, stretch, watched, real, &mut found);
+    if moving.is_empty() {
+        return found;
+    }
+    let mut length = first_piece(world, stretch, &moving);
+    let mut from = stretch.from;
+    for _ in 0..MOST_STEPS {
+        let piece = Stretch { paths: stretch.paths, from, to: stretch.to.min(from + length) };
+        found = Found { closing: None, clear_until: piece.to };
+        for &interaction in &moving {
+            look_along(world, interaction, &piece, watched, real, &mut found);
         }
+        if found.closing.is_some() || found.clear_until < piece.to || piece.to >= stretch.to {
+            return found;
+        }
+        from = piece.to;
+        length *= 2.0;
     }
     found
+}
+
+/// A time in which no feature moves further than a twentieth of the machine's size, by present speeds.
+fn first_piece(world: &World, stretch: &Stretch, moving: &[usize]) -> f64 {
+    let n = stretch.paths.len();
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    let far = 0.05 * world.system.size;
+    let time = |world: &World, i: usize, q: &mut [f64], v: &mut [f64]| {
+        set_state(&world.arms[i], stretch, stretch.from, q, v);
+        let pace = Pace::new(&world.arms[i], stretch.paths, (q, v), 0.0);
+        let (speed, acceleration) = (pace.total(), pace.acceleration());
+        2.0 * far / (speed + (speed * speed + 2.0 * acceleration * far).sqrt()).max(f64::MIN_POSITIVE)
+    };
+    moving.iter().map(|&i| time(world, i, &mut q, &mut v)).fold(f64::INFINITY, f64::min)
 }
 
 /// Looks along one interaction, from list to list.
@@ -108,11 +139,14 @@ fn look_along<'a>(
         let (travelled, room) = world.refresh(interaction, &q, 0.0);
         let (end, pace) =
             horizon(world, interaction, stretch, (&q, &v), (travelled, room), t, found.clear_until);
-        let reach = travelled + pace.total() * (end - t);
+        let sides = world.travelled(interaction, &q);
         let placed = (Placed::new(&bodies[a], &q), Placed::new(&bodies[b], &q));
         let mut moved = false;
         for k in 0..world.listed(interaction).len() {
             let candidate = world.listed(interaction)[k];
+            let shares = world.shares(&candidate);
+            let pace = pace.shared(shares);
+            let reach = sides[0] * shares[0] + sides[1] * shares[1] + pace.total() * (end - t);
             if candidate.distance > reach || watched.contains(&(candidate.id, Watch::Closed)) {
                 continue;
             }

@@ -5,7 +5,7 @@
 //! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem.
 
 use crate::complementarity::{Solution, solve};
-use crate::linear::Cholesky;
+use crate::linear::{Cholesky, Small};
 use crate::place::representatives;
 use crate::search::TOGETHER;
 use crate::world::{Touch, World};
@@ -274,7 +274,7 @@ fn weigh(system: &System, row: &Row, q: &[f64], v: &[f64]) -> f64 {
 }
 
 /// `G M⁻¹ Gᵀ` in row order.
-pub fn inverse_inertia(system: &System, rows: &[Row]) -> Vec<f64> {
+pub fn inverse_inertia(system: &System, rows: &[Row]) -> Small<f64, 16> {
     let product = |a: &Row, b: &Row| -> f64 {
         a.entries()
             .map(|(i, g)| {

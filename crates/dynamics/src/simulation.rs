@@ -142,7 +142,7 @@ impl<'a> Simulation<'a> {
             chatter: Chatter::default(),
             chattering: None,
             components: vec![],
-            next_step: options.until,
+            next_step: 0.05 * system.coordinates.iter().map(natural_time).fold(options.until, f64::min),
             longest_stretch: f64::INFINITY,
             at_once: 0,
             trajectory: Trajectory { pieces: vec![vec![]; n], times: vec![0.0] },

@@ -1,6 +1,7 @@
 //! Changes of contacts that are closed: a force that comes to zero, a contact point that runs off its feature.
 
 use crate::component::Component;
+use crate::linear::Small;
 use crate::search::Stretch;
 use crate::world::World;
 use mainspring_mechanism::ContactId;
@@ -38,7 +39,7 @@ pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch)
     for k in 1..=SAMPLES {
         let t = stretch.from + (stretch.to - stretch.from) * f64::from(k) / f64::from(SAMPLES);
         let measures = probe.measure_all(world, t);
-        let failing: Vec<usize> = (0..measures.len()).filter(|&i| measures[i] < 0.0).collect();
+        let failing: Small<usize> = (0..measures.len()).filter(|&i| measures[i] < 0.0).collect();
         if !failing.is_empty() {
             let found = failing.iter().map(|&i| (probe.zero(world, i, before, (t, measures[i])), i));
             let (t, i) = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
@@ -67,12 +68,12 @@ impl Probe<'_, '_, '_> {
     }
 
     /// Force and margin of every contact in turn: a contact stays while both are positive.
-    fn measure_all(&mut self, world: &mut World, t: f64) -> Vec<f64> {
+    fn measure_all(&mut self, world: &mut World, t: f64) -> Small<f64, 8> {
         self.move_to(t);
         let size = world.system.size;
         let touches = self.component.touches(world, &self.q);
         let forces = self.component.forces_of(world, &touches, &self.q, &self.v, &mut self.acceleration);
-        let forces = forces.unwrap_or_else(|| vec![0.0; touches.len()]);
+        let forces = forces.unwrap_or_else(|| touches.iter().map(|_| 0.0).collect());
         forces.into_iter().zip(&touches).flat_map(|(force, t)| [force, t.margin(size)]).collect()
     }
 

@@ -103,21 +103,30 @@ impl<'a> World<'a> {
         Touch { candidate: *c, state, placed }
     }
 
-    /// How far the arms of an interaction have moved since its list was made.
-    fn travelled(&self, interaction: usize, q: &[f64]) -> f64 {
+    /// How far the arms of either side of an interaction have moved since its list was made.
+    pub fn travelled(&self, interaction: usize, q: &[f64]) -> [f64; 2] {
         let made_at = &self.near[interaction].made_at;
         if made_at.is_empty() {
-            return f64::INFINITY;
+            return [f64::INFINITY; 2];
         }
-        let arms = &self.arms[interaction];
-        arms.iter().zip(made_at).map(|(arm, at)| arm.length * (q[arm.coordinate] - at).abs()).sum()
+        let mut sides = [0.0; 2];
+        for (arm, at) in self.arms[interaction].iter().zip(made_at) {
+            sides[usize::from(arm.second)] += arm.length * (q[arm.coordinate] - at).abs();
+        }
+        sides
+    }
+
+    /// Lever arms of a contact's features as shares of the greatest.
+    pub fn shares(&self, c: &Candidate) -> [f64; 2] {
+        let shares = &self.system.interactions[c.id.interaction as usize].shares;
+        [shares.0[c.id.first as usize], shares.1[c.id.second as usize]]
     }
 
     /// Makes sure that the list of an interaction names every contact nearer than `within` at `q`. Returns how far
     /// the arms have moved since the list was made, and how much further they may move before an unlisted contact
     /// can be nearer than `within`.
     pub fn refresh(&mut self, interaction: usize, q: &[f64], within: f64) -> (f64, f64) {
-        let travelled = self.travelled(interaction, q);
+        let travelled: f64 = self.travelled(interaction, q).iter().sum();
         let room = self.near[interaction].bound - within - travelled;
         // A list about to run out is made again: stretches between lists must not become ever shorter.
         if room > 0.01 * self.system.size {

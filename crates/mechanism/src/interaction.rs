@@ -24,6 +24,8 @@ pub struct Interaction {
     /// Greatest lever arms: how far a feature moves at most per unit of a joint's own position, by joint of the
     /// chain. For the first and the second body.
     pub levers: ([f64; MAX_CHAIN], [f64; MAX_CHAIN]),
+    /// For each feature of either body, how far it moves at most as a fraction of the greatest lever arm.
+    pub shares: (Vec<f64>, Vec<f64>),
     /// Which features are no surfaces of the bodies' own pair.
     usable: (Vec<bool>, Vec<bool>),
     height_tolerance: f64,
@@ -108,9 +110,10 @@ fn interaction(
     }
     let chosen_b: Vec<usize> = (0..fb.len()).filter(|&j| chosen_a.iter().any(|&i| meets(i, j))).collect();
     let levers = (levers(a, fa, &chosen_a), levers(b, fb, &chosen_b));
+    let shares = (shares(a, fa, levers.0[0]), shares(b, fb, levers.1[0]));
     let trees = (FeatureTree::new(fa, chosen_a), FeatureTree::new(fb, chosen_b));
     let usable = (fa.iter().map(usable).collect(), fb.iter().map(usable).collect());
-    Some(Interaction { bodies: pair, trees, levers, usable, height_tolerance })
+    Some(Interaction { bodies: pair, trees, levers, shares, usable, height_tolerance })
 }
 
 /// A curve is excluded when its owner or an alias is; a corner when both of its sides are.
@@ -209,4 +212,16 @@ fn levers(body: &Body, features: &[Feature], chosen: &[usize]) -> [f64; MAX_CHAI
         };
     }
     levers
+}
+
+/// Lever arms of single features on a body that only turns, relative to the greatest; 1 for all others.
+fn shares(body: &Body, features: &[Feature], greatest: f64) -> Vec<f64> {
+    let share = |f: &Feature| match body.chain.as_slice() {
+        [joint] => match joint.motion {
+            Motion::Turn { center } if greatest > 0.0 => (f.shape.distances_from(center).1 / greatest).min(1.0),
+            _ => 1.0,
+        },
+        _ => 1.0,
+    };
+    features.iter().map(share).collect()
 }
