@@ -218,7 +218,9 @@ fn levers(body: &Body, features: &[Feature], chosen: &[usize]) -> [f64; MAX_CHAI
 fn shares(body: &Body, features: &[Feature], greatest: f64) -> Vec<f64> {
     let share = |f: &Feature| match body.chain.as_slice() {
         [joint] => match joint.motion {
-            Motion::Turn { center } if greatest > 0.0 => (f.shape.distances_from(center).1 / greatest).min(1.0),
+            Motion::Turn { center } if greatest > 0.0 => {
+                (f.shape.distances_from(center).1 / greatest).min(1.0)
+            }
             _ => 1.0,
         },
         _ => 1.0,

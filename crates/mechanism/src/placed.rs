@@ -61,7 +61,8 @@ pub struct PointMotion {
 impl<'b> Placed<'b> {
     /// Joints beyond `MAX_CHAIN` are not looked at; `System::new` allows none.
     pub fn new(body: &'b Body, q: &[f64]) -> Self {
-        let mut placed = Self { pose: Pose::identity(), chain: &body.chain, at: [Vec2::default(); MAX_CHAIN] };
+        let mut placed =
+            Self { pose: Pose::identity(), chain: &body.chain, at: [Vec2::default(); MAX_CHAIN] };
         for (at, joint) in placed.at.iter_mut().zip(&body.chain) {
             *at = match joint.motion {
                 Motion::Turn { center } => placed.pose.apply(center),

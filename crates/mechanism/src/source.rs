@@ -30,14 +30,7 @@ pub trait ContactSource {
     /// Appends, in a fixed order, every contact of `interaction` whose features are nearer than `reach` with the
     /// first body at pose `a` and the second at `b`. Returns a lower bound (≤ `reach`) of the distance between
     /// the features of every other contact.
-    fn candidates(
-        &self,
-        interaction: usize,
-        a: &Pose,
-        b: &Pose,
-        reach: f64,
-        found: &mut Vec<Candidate>,
-    );
+    fn candidates(&self, interaction: usize, a: &Pose, b: &Pose, reach: f64, found: &mut Vec<Candidate>);
 }
 
 /// Direct search through two trees of discs.
@@ -48,14 +41,7 @@ pub struct DirectSearch<'a> {
 }
 
 impl ContactSource for DirectSearch<'_> {
-    fn candidates(
-        &self,
-        interaction: usize,
-        a: &Pose,
-        b: &Pose,
-        reach: f64,
-        found: &mut Vec<Candidate>,
-    ) {
+    fn candidates(&self, interaction: usize, a: &Pose, b: &Pose, reach: f64, found: &mut Vec<Candidate>) {
         let pair = &self.interactions[interaction];
         let (fa, fb) = (&self.features[pair.bodies.0], &self.features[pair.bodies.1]);
         let start = found.len();
