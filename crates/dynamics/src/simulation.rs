@@ -225,7 +225,17 @@ impl<'a> Simulation<'a> {
             }
             to = to.min(self.components[k].1);
         }
-        Some(to)
+        Some(to.min(self.t + self.longest_swing()))
+    }
+
+    /// Stretches stay short against swings, so that no minimum or extreme inside is overlooked; unbounded if nothing
+    /// swings.
+    fn longest_swing(&self) -> f64 {
+        let swing = |path: &Path| match path {
+            Path::Flight(flight) if flight.panel().1 == 1.0 => 4.0 * flight.panel().0,
+            _ => f64::INFINITY,
+        };
+        self.paths.iter().map(swing).fold(f64::INFINITY, f64::min)
     }
 
     /// The first thing to happen until `to`: a contact that closes, or a change of the contacts that are closed.
