@@ -28,8 +28,6 @@ pub struct Advance {
     /// Proposed length of the next step.
     pub next: f64,
     pub paths: Vec<(usize, Path)>,
-    /// Contacts (by place in `contacts`) whose force was negative at some stage.
-    pub pulling: Vec<bool>,
 }
 
 /// Tolerances of integration: scales of position and velocity by coordinate, times the relative tolerance.
@@ -119,10 +117,9 @@ impl Component {
             let error = step.attempt(&mut equations, t, &y, h, &scale);
             let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
-                let pulling = equations.pulling.clone();
                 let dense = step.dense(&mut equations, t, &y, h);
                 let paths = self.paths(&step, &dense, t, h);
-                break Some(Advance { h, next: h * factor, paths, pulling });
+                break Some(Advance { h, next: h * factor, paths });
             }
             h *= factor.min(0.5);
         };
@@ -185,7 +182,6 @@ struct ComponentEquations<'c, 'w> {
     q: Vec<f64>,
     v: Vec<f64>,
     acceleration: Vec<f64>,
-    pulling: Vec<bool>,
     singular: bool,
 }
 
@@ -197,7 +193,6 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
             q: q.to_vec(),
             v: v.to_vec(),
             acceleration: vec![0.0; q.len()],
-            pulling: vec![false; component.contacts.len()],
             singular: false,
         }
     }
@@ -216,14 +211,8 @@ impl Equations for ComponentEquations<'_, '_> {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
         let touches = self.component.touches(self.world, &self.q);
-        match self.component.forces_of(self.world, &touches, &self.q, &self.v, &mut self.acceleration) {
-            Some(lambda) => {
-                for (flag, l) in self.pulling.iter_mut().zip(lambda) {
-                    *flag |= l < 0.0;
-                }
-            }
-            None => self.singular = true,
-        }
+        let (q, v, acceleration) = (&self.q, &self.v, &mut self.acceleration);
+        self.singular |= self.component.forces_of(self.world, &touches, q, v, acceleration).is_none();
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];
             dy[n + k] = self.acceleration[i];

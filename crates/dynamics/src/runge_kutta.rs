@@ -50,9 +50,9 @@ impl Step {
 
     fn stage(&mut self, f: &mut impl Equations, stage: usize, t: f64, y: &[f64], h: f64) {
         let n = self.n;
-        for i in 0..n {
+        for (i, start) in y.iter().enumerate() {
             let sum: f64 = A[stage].iter().map(|&(s, a)| a * self.k[s * n + i]).sum();
-            self.scratch[i] = y[i] + h * sum;
+            self.scratch[i] = start + h * sum;
         }
         let row = stage * n..(stage + 1) * n;
         f.derivative(t + C[stage] * h, &self.scratch, &mut self.k[row]);

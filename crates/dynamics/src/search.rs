@@ -50,16 +50,6 @@ pub struct Stretch<'p> {
     pub to: f64,
 }
 
-impl Stretch<'_> {
-    /// Fills positions and velocities at time `t`.
-    pub fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
-        for (i, path) in self.paths.iter().enumerate() {
-            let State { q: qi, v: vi } = path.at(t);
-            (q[i], v[i]) = (qi, vi);
-        }
-    }
-}
-
 /// What a search found.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {

@@ -79,7 +79,7 @@ impl Probe<'_, '_, '_> {
 
     /// One of them; a margin needs its own contact only.
     fn measure(&mut self, world: &mut World, i: usize, t: f64) -> f64 {
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             return self.measure_all(world, t)[i];
         }
         self.move_to(t);

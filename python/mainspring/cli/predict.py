@@ -11,6 +11,9 @@ from mainspring.cli.progress import watch
 from mainspring.prediction import Hypothesis, Prediction
 
 
+SHOWN = 10  # hypotheses in the table: a screen, not a scroll
+
+
 def run(options: Namespace) -> None:
     """Predict, write the report if asked for, print the answer."""
     chosen = search(options)
@@ -72,9 +75,10 @@ def account(mechanism: "ms.Mechanism", result: Prediction) -> None:
         )
         heads = ("part", "change of position", "change of velocity")
         tables.show(f"one pattern, {tables.signed(result.pattern.duration)} s", heads, rows, numeric=(1, 2))
-    tables.show(
-        "hypotheses", ("minima", "formed at", "fell at", "why"), map(hypothesis_row, result.hypotheses)
-    )
+    last = result.hypotheses[-SHOWN:]
+    tables.show("hypotheses", ("minima", "formed at", "fell at", "why"), map(hypothesis_row, last))
+    if len(result.hypotheses) > SHOWN:
+        print(f"and {len(result.hypotheses) - SHOWN} that fell before (all with --json)")
     print(f"\nsimulated {tables.signed(result.simulated_seconds)} s to know this")
 
 
