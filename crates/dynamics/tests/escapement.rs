@@ -91,7 +91,8 @@ fn changed_machines_tick_otherwise() {
         let relaxed = c.force / c.stiffness;
         *c = common::coordinate(&c.name, c.inertia, c.damping, (constant, relaxed));
     };
-    let changes: [(&dyn Fn(&mut [Coordinate]), f64); 6] = [
+    type Change<'c> = &'c dyn Fn(&mut [Coordinate]);
+    let changes: [(Change, f64); 6] = [
         (&|c| spring(&mut c[2], 25.0), 28.518_098_7),
         (&|c| c[2].inertia = 15.0, 32.258_884_9),
         (&|c| c[2].inertia = 30.0, 44.961_627_4),
