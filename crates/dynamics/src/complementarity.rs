@@ -120,7 +120,7 @@ mod tests {
 
     fn check(a: &[f64], b: &[f64]) {
         let n = b.len();
-        let s = solve(a, b, &vec![1e-12; n]);
+        let s = solve(a, b, &vec![1e-10; n]);
         assert!(s.solved, "{a:?} {b:?}");
         for i in 0..n {
             let w: f64 = b[i] + (0..n).map(|j| a[i * n + j] * s.lambda[j]).sum::<f64>();
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn one_contact_pushes_only_when_it_must() {
-        assert_eq!(solve(&[2.0], &[-3.0], &[1e-12]).lambda, vec![1.5]);
+        assert!((solve(&[2.0], &[-3.0], &[1e-12]).lambda[0] - 1.5).abs() < 1e-15);
         assert_eq!(solve(&[2.0], &[3.0], &[1e-12]).lambda, vec![0.0]);
     }
 
