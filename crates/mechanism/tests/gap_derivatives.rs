@@ -5,7 +5,7 @@ use mainspring_geometry::{CurveId, Edge, Layer, Loop, Outline, Scalar, Segment, 
 use mainspring_mechanism::{
     Body, Feature, FeatureShape, GapKind, Joint, Motion, Placed, features, gap, gap_state,
 };
-use num_dual::{Dual2_64, Dual64, DualNum};
+use num_dual::{Dual2_64, Dual64};
 
 fn edge(segment: Segment, primitive: u32, turn: Turn) -> Edge {
     Edge { segment, curve: CurveId { primitive, face: 0 }, aliases: vec![], turn_at_start: turn }

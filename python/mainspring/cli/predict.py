@@ -10,7 +10,6 @@ from mainspring.cli.faults import Stopped
 from mainspring.cli.progress import watch
 from mainspring.prediction import Hypothesis, Prediction
 
-
 SHOWN = 10  # hypotheses in the table: a screen, not a scroll
 
 
