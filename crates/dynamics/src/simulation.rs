@@ -485,8 +485,10 @@ impl<'a> Simulation<'a> {
 
     /// Shortens a stretch of flights only to the time at which they come to rest.
     fn rest_time(&self, to: f64) -> f64 {
-        let level = AT_REST * self.minima.top.max(self.energy.kinetic_max);
-        if !self.components.is_empty() || level <= 0.0 || self.free_energy(to) > level {
+        let top = self.minima.top.max(self.energy.kinetic_max);
+        // Before anything has moved, what can still be set free stands for the greatest kinetic energy.
+        let level = AT_REST * if top > 0.0 { top } else { self.free_energy(self.t) };
+        if !self.components.is_empty() || level <= 0.0 || !level.is_finite() || self.free_energy(to) > level {
             return to;
         }
         let (mut moving, mut resting) = (self.t, to);

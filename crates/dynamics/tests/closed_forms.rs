@@ -55,6 +55,18 @@ fn a_damped_oscillator_alone() {
     assert_eq!(found.minima.len(), (12.0 * w / std::f64::consts::PI) as usize);
 }
 
+/// A heavily damped oscillator let go from rest creeps to its equilibrium and is at rest there, not for ever under way.
+#[test]
+fn a_heavily_damped_oscillator_comes_to_rest() {
+    let c = started(coordinate("a", 2.0, 20.0, (8.0, 0.2)), 1.0, 0.0);
+    let text = "generic m(m)\na = blo(x=2)\nf = blo() at (movy=50)\nattr f : frame = 1\nm = a asb f\n";
+    let found = run(&system(vec![c], text, &[("a", turn(0, 0.0, 0.0))], 2.0), 1e9, 1e-8);
+    assert_eq!(found.status, Status::AtRest);
+    assert!(found.t > 10.0 && found.t < 100.0, "{}", found.t);
+    close(found.q[0], 0.2, 1e-6);
+    balanced(&found);
+}
+
 /// Two geared oscillators move as one whose inertia, friction and spring are the sums reflected through the ratio,
 /// and both bodies follow.
 #[test]

@@ -9,6 +9,9 @@ use mainspring_dynamics::{EventKind, Run, Status};
 use mainspring_mechanism::Coordinate;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
+/// Changes the coordinates of a machine.
+type Change<'c> = &'c dyn Fn(&mut [Coordinate]);
+
 const MINIMA: [f64; 10] = [
     3.684_622_024_9,
     7.382_005_208_0,
@@ -91,7 +94,6 @@ fn changed_machines_tick_otherwise() {
         let relaxed = c.force / c.stiffness;
         *c = common::coordinate(&c.name, c.inertia, c.damping, (constant, relaxed));
     };
-    type Change<'c> = &'c dyn Fn(&mut [Coordinate]);
     let changes: [(Change, f64); 6] = [
         (&|c| spring(&mut c[2], 25.0), 28.518_098_7),
         (&|c| c[2].inertia = 15.0, 32.258_884_9),
