@@ -79,6 +79,14 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     }
     let touches = choose(world, instant, &near, v);
     hold(world.system, instant, &touches, v, &mut out);
+    // What touches along the same normal as a contact that lets go, and carries nothing, lets go with it.
+    if let Some(left) = near.iter().find(|t| Some(t.candidate.id) == instant.leaving) {
+        let lets_go = |c: &Closed| {
+            !c.active
+                && touches.iter().any(|t| t.candidate.id == c.candidate.id && t.row().is_along(&left.row()))
+        };
+        out.closed.retain(|c| !lets_go(c));
+    }
     let is_closed = |t: &&Touch| out.closed.iter().any(|c| c.candidate.id == t.candidate.id);
     out.opening = near.iter().filter(|t| !is_closed(t)).map(|t| (t.candidate.id, t.state.gap)).collect();
     out

@@ -37,6 +37,13 @@ impl Row {
         (0..self.count).map(|k| (self.coordinate[k], self.value[k]))
     }
 
+    /// Same coordinates with the same entries, to 1e-9 of the largest.
+    pub fn is_along(&self, other: &Self) -> bool {
+        let size = self.entries().map(|(_, g)| g.abs()).fold(0.0, f64::max);
+        let near = |(a, b): ((usize, f64), (usize, f64))| a.0 == b.0 && (a.1 - b.1).abs() <= 1e-9 * size;
+        self.count == other.count && self.entries().zip(other.entries()).all(near)
+    }
+
     pub fn dot(&self, x: &[f64]) -> f64 {
         self.entries().map(|(i, g)| g * x[i]).sum()
     }
