@@ -2,7 +2,7 @@
 //!
 //! Inputs are mutated examples, random programs of the language, token soup and random bytes ([`input`]). Each is
 //! given to every [`Target`]; a panic, an error that breaks the rules for messages, a broken promise of the model,
-//! or more than a second is a failure ([`run`]).
+//! or more than a given time is a failure ([`run`]).
 
 mod input;
 mod program;
@@ -13,5 +13,5 @@ mod target;
 
 pub use input::{Input, input};
 pub use random::Random;
-pub use run::{Failure, Options, Summary, run};
+pub use run::{Failure, Options, SLOW, Summary, run};
 pub use target::{TARGETS, Target};

@@ -3,7 +3,7 @@
 //! With `--steps 2` accepted machines are compiled as well; without it only the model is tried.
 //! With `--show N` input N is printed instead. Ends with 1 if anything failed.
 
-use mainspring_fuzz::{Options, Summary, input, run};
+use mainspring_fuzz::{Options, SLOW, Summary, input, run};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
 }
 
 fn parse(arguments: &[String]) -> Result<(Options, Option<u64>), String> {
-    let mut options = Options { seed: 1, from: 0, inputs: 20_000, threads: 2, steps: 1 };
+    let mut options = Options { seed: 1, from: 0, inputs: 20_000, threads: 2, steps: 1, patience: SLOW };
     let mut show = None;
     for pair in arguments.chunks(2) {
         let [name, value] = pair else { return Err(format!("{} without a value", pair[0])) };
@@ -53,9 +53,9 @@ fn report(summary: &Summary, seed: u64) -> ExitCode {
     }
     let memory = peak_memory();
     let used = memory.map_or("unknown memory".to_string(), |kib| format!("at most {} MiB", kib / 1024));
-    let Summary { inputs, accepted, slowest, failures } = summary;
+    let Summary { inputs, read, accepted, slowest, failures } = summary;
     println!(
-        "{inputs} inputs, {accepted} accepted, {} failures, slowest {} ms, {used}",
+        "{inputs} inputs, {read} read, {accepted} accepted, {} failures, slowest {} ms, {used}",
         failures.len(),
         slowest.as_millis()
     );

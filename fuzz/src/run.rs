@@ -17,10 +17,12 @@ pub struct Options {
     pub threads: u64,
     /// How many of [`TARGETS`] are tried: 1 the model, 2 the compilation as well.
     pub steps: usize,
+    /// Longest time that an input may take.
+    pub patience: Duration,
 }
 
-/// Longest time that an input may take.
-pub const SLOW: Duration = Duration::from_secs(1);
+/// Longest time that a user should have to wait.
+pub const SLOW: Duration = Duration::from_secs(5);
 
 /// An input that went wrong.
 #[derive(Clone, Debug)]
@@ -33,7 +35,9 @@ pub struct Failure {
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
     pub inputs: u64,
-    /// Machines read and evaluated without an error.
+    /// Machines read, and handed to the first step.
+    pub read: u64,
+    /// Machines that every step accepted.
     pub accepted: u64,
     pub slowest: Duration,
     /// In the order of the inputs.
@@ -51,6 +55,7 @@ pub fn run(options: Options) -> Summary {
     let mut total = Summary::default();
     for run in runs {
         total.inputs += run.inputs;
+        total.read += run.read;
         total.accepted += run.accepted;
         total.slowest = total.slowest.max(run.slowest);
         total.failures.extend(run.failures);
@@ -70,29 +75,39 @@ fn run_share(options: Options, thread: u64, threads: u64) -> Summary {
         summary.inputs += 1;
         summary.slowest = summary.slowest.max(time);
         match outcome {
-            Ok(accepted) => summary.accepted += u64::from(accepted),
+            Ok(reached) => {
+                summary.read += u64::from(reached != Reached::Parser);
+                summary.accepted += u64::from(reached == Reached::End);
+            }
             Err(what) => summary.failures.push(Failure { index, what }),
         }
-        if time > SLOW {
+        if time > options.patience {
             summary.failures.push(Failure { index, what: format!("slow: {time:?}") });
         }
     }
     summary
 }
 
-/// Was the input accepted by every target?
-fn try_input(input: &Input, steps: usize) -> Result<bool, String> {
+/// How far an input came.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reached {
+    Parser,
+    Steps,
+    End,
+}
+
+fn try_input(input: &Input, steps: usize) -> Result<Reached, String> {
     let supplement = input.supplement.as_deref().map(|s| ("m.sup", s));
     let machine = match Machine::parse("m.padl", &input.model, supplement) {
-        Err(e) => return check_error(&e, input).map(|()| false),
+        Err(e) => return check_error(&e, input).map(|()| Reached::Parser),
         Ok(machine) => Arc::new(machine),
     };
     for target in TARGETS.iter().take(steps) {
         if let Some(e) = (target.check)(&machine).map_err(|e| format!("{}: {e}", target.name))? {
-            return check_error(&e, input).map(|()| false);
+            return check_error(&e, input).map(|()| Reached::Steps);
         }
     }
-    Ok(true)
+    Ok(Reached::End)
 }
 
 /// The rules for messages: one short line, a place inside the file, what was expected, nothing unprintable.

@@ -24,14 +24,18 @@ fn model(machine: &Arc<Machine>) -> Result<Option<Error>, String> {
     }
 }
 
-/// Pairs, subsystems and outlines; the same twice.
+/// Pairs, subsystems and outlines; for one machine in eight the same twice.
 fn compile(machine: &Arc<Machine>) -> Result<Option<Error>, String> {
     let once = || Mechanism::compile(machine.clone(), &[], &CompileOptions::default());
-    match (once(), once()) {
-        (Err(a), Err(b)) if a == b => Ok(Some(a)),
-        (Ok(a), Ok(b)) if format!("{:?}", a.pairs) == format!("{:?}", b.pairs) => Ok(None),
-        _ => Err("two compilations of one machine differ".to_string()),
-    }
+    let first = once();
+    let twice = (machine.parts().len() + machine.parameters().len()).is_multiple_of(8);
+    let same = !twice
+        || match (&first, &once()) {
+            (Err(a), Err(b)) => a == b,
+            (Ok(a), Ok(b)) => format!("{:?}", a.pairs) == format!("{:?}", b.pairs),
+            _ => false,
+        };
+    if same { Ok(first.err()) } else { Err("two compilations of one machine differ".to_string()) }
 }
 
 type Evaluated = (Values<f64>, Vec<Primitive>);

@@ -47,6 +47,7 @@ impl OutlineRecipe {
         let boxes = boxes(primitives, &tree, plane_from_machine)?;
         let bounds = tree.bounds(|i| boxes[i as usize]);
         let mut outcome = Ok(Vec::new());
+        let mut budget = Budget::new();
         for relative in COINCIDENT {
             if bounds.is_empty() {
                 break;
@@ -56,7 +57,8 @@ impl OutlineRecipe {
             let tolerance = Tolerance { length, angle: length / bounds.diagonal().max(size), center };
             let mut tree = tree.clone();
             tree.prune(|i| boxes[i as usize], length);
-            outcome = Finder { primitives, plane: plane_from_machine, tree, tolerance, bounds }.layers();
+            outcome =
+                Finder { primitives, plane: plane_from_machine, tree, tolerance, bounds }.layers(&mut budget);
             if outcome != Err(OutlineError::Degenerate) {
                 break;
             }
@@ -104,10 +106,10 @@ struct Sections {
 }
 
 impl Finder<'_> {
-    fn layers(&self) -> Result<Vec<LayerRecipe>, OutlineError> {
+    fn layers(&self, budget: &mut Budget) -> Result<Vec<LayerRecipe>, OutlineError> {
         let sections = self.sections()?;
         let levels = levels(&sections.list, self.tolerance.length);
-        let raw = self.raw_layers(&sections, &levels)?;
+        let raw = self.raw_layers(&sections, &levels, budget)?;
         (0..raw.len()).map(|k| self.finish(k, &sections, &levels, &raw)).collect()
     }
 
@@ -134,15 +136,20 @@ impl Finder<'_> {
     }
 
     /// The non-empty layers from bottom to top.
-    fn raw_layers(&self, all: &Sections, levels: &[Level]) -> Result<Vec<RawLayer>, OutlineError> {
-        let (mut budget, mut scratch) = (Budget::new(), Scratch::default());
+    fn raw_layers(
+        &self,
+        all: &Sections,
+        levels: &[Level],
+        budget: &mut Budget,
+    ) -> Result<Vec<RawLayer>, OutlineError> {
+        let mut scratch = Scratch::default();
         let mut layers: Vec<RawLayer> = Vec::new();
         for k in 1..levels.len() {
             let z = 0.5 * (levels[k - 1].z + levels[k].z);
             if z < self.bounds.min[2] || z > self.bounds.max[2] {
                 continue;
             }
-            let loops = self.slab(all, z, &mut scratch, &mut budget)?;
+            let loops = self.slab(all, z, &mut scratch, budget)?;
             match layers.last_mut() {
                 Some(below) if below.levels[1] == k - 1 && same_loops(&below.loops, &loops) => {
                     below.levels[1] = k;

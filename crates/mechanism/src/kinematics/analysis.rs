@@ -53,6 +53,8 @@ pub(crate) fn analyse(
     misses.extend(meshes.misses);
     let mut warnings: Vec<Warning> = meshes.warnings.into_iter().map(plain).collect();
     warnings.extend(lower.cut_short.iter().map(cut_short));
+    let partly = "the parts have too many faces: near misses were not looked for everywhere";
+    warnings.extend(lower.misses_cut_short.then(|| plain(partly.into())));
     warnings.extend(many.then(|| plain(format!("only the first {MAX_MISSES} near misses are listed"))));
 
     let (loops, too_large) = loops(parts, frame, &pairs, size);
@@ -105,7 +107,7 @@ fn idle(
 
 impl Shapes<'_> {
     pub(crate) fn parts<'a>(&'a self, holds: &'a [Option<Hold>], pairs: &'a [Pair]) -> Parts<'a> {
-        let Scene { primitives, boxes, tolerance } = *self.scene;
+        let Scene { primitives, boxes, tolerance, .. } = *self.scene;
         Parts { primitives, boxes, csgs: self.csgs, leaves: self.leaves, holds, pairs, tolerance }
     }
 }

@@ -16,6 +16,7 @@ use super::supplement::{given, reflected};
 use super::surface::lateral;
 use super::symmetry::symmetries;
 use super::words;
+use super::work::Work;
 use mainspring_geometry::{Csg, Outline, OutlineError, OutlineRecipe, Primitive};
 use mainspring_model::{Error, Machine, Values};
 use std::sync::Arc;
@@ -37,10 +38,16 @@ impl Mechanism {
         let mut mechanism = assemble(machine, &values, primitives, frame, options)?;
         given(&mut mechanism, &values)?;
         reflected(&mut mechanism);
-        mechanism.check_start()?;
+        let unchecked = mechanism.check_start()?;
+        mechanism.warnings.extend(unchecked);
         Ok(mechanism)
     }
 }
+
+/// Bound on the search for pairs.
+const MAX_WORK: u64 = 12_000_000;
+/// Bound on the work for one gear, of that for all.
+const MAX_GEAR_WORK: u64 = 4_000_000;
 
 fn no_frame(machine: &Machine) -> Error {
     let place = machine.parts().first().map_or(Default::default(), |p| p.place);
@@ -58,7 +65,13 @@ fn assemble(
     let models = machine.parts();
     let solids: Vec<Solid<'_>> = models.iter().map(|p| solid(&primitives, &boxes, &p.csg)).collect();
     let size = solids.iter().fold(Bounds::EMPTY, |b, s| b.join(&s.bounds)).diagonal();
-    let scene = Scene { primitives: &primitives, boxes: &boxes, tolerance: RELATIVE_TOLERANCE * size };
+    if !size.is_finite() {
+        let message = "the machine's size overflows, expected lengths below 1e150".to_string();
+        return Err(machine.error(models[frame].place, message));
+    }
+    let tolerance = RELATIVE_TOLERANCE * size;
+    let work = Work::new(MAX_WORK);
+    let scene = Scene { primitives: &primitives, boxes: &boxes, tolerance, work };
     let csgs: Vec<&Csg> = models.iter().map(|p| &p.csg).collect();
     let leaves: Vec<Vec<u32>> = csgs.iter().map(|c| leaves(c)).collect();
     let label = |i: u32| machine.label_of_primitive(i);
@@ -140,13 +153,22 @@ fn gear_data(
 ) -> Result<Vec<GearData>, Error> {
     let mut gears = Vec::new();
     for gear in machine.gears() {
+        scene.work.open(MAX_GEAR_WORK);
         let of = |m: &mainspring_model::GearMember| {
             let lateral = lateral(m.primitive, &scene.primitives[m.primitive as usize])?;
             Some(Member { lateral, internal: is_internal(scene, &solids[gear.part], &lateral, m.adds) })
         };
+        let members = gear.members.iter().filter_map(of).collect();
+        if scene.work.ran_out() {
+            let message = format!(
+                "{} has too many primitives to tell on which side its teeth are, expected fewer",
+                gear.name
+            );
+            return Err(machine.error(gear.place, message));
+        }
         gears.push(GearData {
             part: gear.part,
-            members: gear.members.iter().filter_map(of).collect(),
+            members,
             teeth: machine.teeth(gear, values)?,
             depth: machine.tooth_depth(gear, values)?,
             name: gear.name.clone(),

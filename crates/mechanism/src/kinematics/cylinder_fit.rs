@@ -22,6 +22,10 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Lateral, b: &La
         let carrier = Carrier::Cylinder { point: a.middle, direction: d, radius: radii[i] };
         scene.region(sites[i], &near, carrier)
     });
+    let members: usize = regions.iter().map(|r| r.members.len()).sum();
+    if !scene.work.spend(scene.primitives_of(sites) + 8 * members) {
+        return Meeting::default();
+    }
     let mut breaks = vec![0.0, TAU];
     for (region, radius) in regions.iter().zip(radii) {
         let circle = Circle { center: a.middle, d, u, v, radius };
@@ -34,6 +38,7 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Lateral, b: &La
         |_| Some(span),
         least,
         scene.tolerance,
+        &scene.work,
         |angle| {
             let (sin, cos) = angle.sin_cos();
             let normal = u * cos + v * sin;

@@ -126,7 +126,7 @@ pub(crate) fn face_patches(
     clearance: f64,
     wanted: impl Fn(Vec3) -> bool,
 ) -> (Vec<PlanePatch>, bool) {
-    let pairs = face_pairs(solids, clearance + scene.tolerance, wanted);
+    let pairs = face_pairs(scene, solids, clearance + scene.tolerance, wanted);
     let examined = pairs.iter().take(MAX_FACE_PAIRS);
     let sites = [&solids[0].site, &solids[1].site];
     let patches = examined.flat_map(|(a, b)| plane_fit::meet(scene, sites, a, b)).collect();
@@ -137,7 +137,7 @@ pub(crate) fn face_patches(
 pub(crate) fn end_patches(scene: &Scene<'_>, solids: [&Solid<'_>; 2], d: Vec3) -> Vec<PlanePatch> {
     let sites = [&solids[0].site, &solids[1].site];
     let mut found: Vec<PlanePatch> = Vec::new();
-    let mut pairs = face_pairs(solids, scene.tolerance, |n| parallel(n, d));
+    let mut pairs = face_pairs(scene, solids, scene.tolerance, |n| parallel(n, d));
     // Large faces first: they are the likeliest to stop a part. Equal ones stay in the order of the text.
     let size = |(a, b): &(Face, Face)| a.area().min(b.area());
     pairs.sort_by(|p, q| size(q).total_cmp(&size(p)));
@@ -155,8 +155,9 @@ pub(crate) fn end_patches(scene: &Scene<'_>, solids: [&Solid<'_>; 2], d: Vec3) -
 }
 
 /// Faces in parallel planes at most `reach` apart, the first face's normal pointing to the second where they do
-/// not coincide.
+/// not coincide. If the work runs out, some are missing.
 pub(crate) fn face_pairs(
+    scene: &Scene<'_>,
     solids: [&Solid<'_>; 2],
     reach: f64,
     wanted: impl Fn(Vec3) -> bool,
@@ -169,12 +170,19 @@ pub(crate) fn face_pairs(
     let (first, second) = (near(solids[0], solids[1]), near(solids[1], solids[0]));
     let mut pairs = Vec::new();
     for (a, around_a) in &first {
+        let before = pairs.len();
+        if !scene.work.spend(second.len() / 8 + 1) {
+            break;
+        }
         for (b, around_b) in &second {
             let gap = (b.middle - a.middle).dot(a.normal);
             if gap.abs() <= reach && around_a.touches(around_b) && parallel(a.normal, b.normal) {
                 let normal = if gap < 0.0 { -a.normal } else { a.normal };
                 pairs.push((Face { normal, ..*a }, *b));
             }
+        }
+        if !scene.work.spend(pairs.len() - before) {
+            break;
         }
     }
     pairs

@@ -15,10 +15,17 @@ pub(crate) struct Lower {
     pub misses: Vec<Miss>,
     /// Parts with more faces against each other than are examined.
     pub cut_short: Vec<(usize, usize)>,
+    /// Near misses were not looked for everywhere.
+    pub misses_cut_short: bool,
 }
 
 /// A point is on a surface within this part of the machine's size.
 pub(crate) const RELATIVE_TOLERANCE: f64 = 1e-9;
+
+/// Bound on the work for two parts, of that for all.
+const PAIR_WORK: u64 = 6_000_000;
+/// Bound on the work for a near miss.
+const MISS_WORK: u64 = 1_000_000;
 
 /// Near misses told of one machine.
 pub(crate) const MAX_MISSES: usize = 200;
@@ -41,29 +48,33 @@ pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f6
     let mut findings = Vec::new();
     for j in 1..solids.len() {
         for i in 0..j {
-            let finding = search::find(scene, [&solids[i], &solids[j]], (i, j), clearance);
+            scene.work.open(PAIR_WORK);
+            let mut finding = search::find(scene, [&solids[i], &solids[j]], (i, j), clearance);
+            finding.too_many_faces |= scene.work.ran_out();
             let near = solids[i].bounds.touches(&solids[j].bounds);
-            if near || finding.says_something() {
+            if near || finding.too_many_faces || finding.says_something() {
                 findings.push(((i, j), finding));
             }
         }
     }
     findings.sort_by_key(|(parts, _)| *parts);
     keep_needed(&mut findings, solids.len());
-    let mut misses = Vec::new();
+    let (mut misses, mut misses_cut_short) = (Vec::new(), false);
     for (parts, finding) in &findings {
         let pair = finding.pair.as_ref().map(|f| &f.pair);
         let mut found = relevant(*parts, finding, pair, scene.tolerance);
         if pair.is_none() && found.is_empty() {
             let pair = [&solids[parts.0], &solids[parts.1]];
+            scene.work.open(MISS_WORK);
             found.extend(search::with_more_play(scene, pair).map(|(p, play)| Miss::play(*parts, p, play)));
         }
+        misses_cut_short |= scene.work.ran_out();
         misses.extend(found);
         misses.truncate(MAX_MISSES + 1);
     }
     let cut_short = findings.iter().filter(|(_, f)| f.too_many_faces).map(|(parts, _)| *parts).collect();
     let pairs = findings.into_iter().filter_map(|(_, f)| f.pair).map(|f| f.pair).collect();
-    Lower { pairs, misses, cut_short }
+    Lower { pairs, misses, cut_short, misses_cut_short }
 }
 
 /// A fit that leaves a way out holds only while something keeps the part in it: it makes a pair for a part that has

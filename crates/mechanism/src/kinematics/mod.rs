@@ -31,6 +31,7 @@ mod supplement;
 mod surface;
 mod symmetry;
 mod words;
+mod work;
 
 pub use bounds::Bounds;
 pub use mechanism::{CompileOptions, JointSpring, Mechanism, Part, Warning};

@@ -5,7 +5,8 @@
 //! the surface and that of the other ahead of it, both judged at a point within the cell.
 
 use super::bounds::Bounds;
-use super::region::{Carrier, Region, Sides, within};
+use super::region::{Carrier, Region, Sides, Thread, within};
+use super::work::Work;
 use mainspring_geometry::Vec3;
 
 /// A piece of surface where the parts meet.
@@ -47,13 +48,16 @@ const MAX_LINES: usize = 2048;
 const MAX_WORK: usize = 400_000;
 
 /// Scans a surface. `breaks` are the events of the scan parameter, its ends included; `span` tells the interval
-/// of a line that counts, if any; pieces narrower than `least_s` or `tolerance` are not counted.
+/// of a line that counts, if any; pieces narrower than `least_s` or `tolerance` are not counted. Where `work` runs
+/// out, nothing is told.
+#[allow(clippy::too_many_arguments)]
 pub(crate) fn scan(
     regions: [&Region; 2],
     mut breaks: Vec<f64>,
     span: impl Fn(&Line) -> Option<(f64, f64)>,
     least_s: f64,
     tolerance: f64,
+    work: &Work,
     line: impl Fn(f64) -> Line,
 ) -> Meeting {
     breaks.sort_by(f64::total_cmp);
@@ -66,7 +70,10 @@ pub(crate) fn scan(
         if to - from > least_s {
             let line = line(within(from, to));
             if let Some(span) = span(&line) {
-                scan_line(regions, &line, (from, to), span, tolerance, &mut meeting);
+                let thorough = scan_line(regions, &line, (from, to), span, tolerance, work, &mut meeting);
+                if !thorough {
+                    return Meeting::default();
+                }
             }
             from = to;
         }
@@ -74,20 +81,30 @@ pub(crate) fn scan(
     meeting
 }
 
+/// False if the work ran out.
 fn scan_line(
     regions: [&Region; 2],
     line: &Line,
     s: (f64, f64),
     span: (f64, f64),
     tolerance: f64,
+    work: &Work,
     meeting: &mut Meeting,
-) {
+) -> bool {
     let mut cuts = vec![span.0, span.1];
-    for (region, from) in regions.iter().zip(line.from) {
-        region.crossings(from, line.along, &mut cuts);
+    if !work.spend(regions.iter().map(|r| r.members.len()).sum::<usize>() + 8) {
+        return false;
+    }
+    let threads = [0, 1].map(|i| regions[i].along(line.from[i], line.along));
+    for (thread, from) in threads.iter().zip(line.from) {
+        thread.crossings(from, line.along, &mut cuts);
     }
     cuts.retain(|&t| t >= span.0 && t <= span.1);
     cuts.sort_by(f64::total_cmp);
+    let cost: usize = threads.iter().map(Thread::cost).sum();
+    if !work.spend(cuts.len() * (2 * cost + 1)) {
+        return false;
+    }
     let mut stack = Vec::new();
     let mut from = cuts[0];
     for &to in &cuts[1..] {
@@ -95,13 +112,14 @@ fn scan_line(
             continue;
         }
         let middle = line.along * within(from, to);
-        let [a, b] = [0, 1].map(|i| regions[i].sides(line.from[i] + middle, line.normal, &mut stack));
+        let [a, b] = [0, 1].map(|i| threads[i].sides(line.from[i] + middle, line.normal, &mut stack));
         note(&mut meeting.seen, a, b);
         if (a.is_solid() && b.is_hollow()) || (a.is_hollow() && b.is_solid()) {
             meeting.cells.push(Cell { s, t: (from, to), first_is_solid: a.is_solid() });
         }
         from = to;
     }
+    true
 }
 
 fn note(seen: &mut [Seen; 2], a: Sides, b: Sides) {
@@ -116,14 +134,21 @@ pub(crate) struct Site<'a> {
     pub csg: &'a mainspring_geometry::Csg,
 }
 
-/// What every search needs: all primitives, their boxes, and the tolerance as a length.
+/// What every search needs: all primitives, their boxes, the tolerance as a length, and the work allowed.
 pub(crate) struct Scene<'a> {
     pub primitives: &'a [mainspring_geometry::Primitive],
     pub boxes: &'a [Bounds],
     pub tolerance: f64,
+    pub work: Work,
 }
 
 impl Scene<'_> {
+    /// What it costs to see which primitives of two parts reach a place.
+    pub(crate) fn primitives_of(&self, sites: [&Site<'_>; 2]) -> usize {
+        // Most are passed by at once.
+        sites.iter().map(|s| s.csg.ops.len() / 8).sum()
+    }
+
     pub(crate) fn region(&self, site: &Site<'_>, near: &Bounds, carrier: Carrier) -> Region {
         Region::new(self.primitives, site.csg, self.boxes, near, carrier, self.tolerance)
     }

@@ -2,11 +2,15 @@
 
 use super::bounds::Bounds;
 use super::chain::turn;
-use super::mechanism::Mechanism;
+use super::mechanism::{Mechanism, Warning};
 use super::pair::{EvidenceKind, PairKind};
 use super::start::{Envelopes, Start};
+use super::work::Work;
 use mainspring_geometry::{Primitive, Rigid3, Vec3};
 use mainspring_model::Error;
+
+/// Bound on the scans for overlaps.
+const MAX_WORK: u64 = 8_000_000;
 
 impl Mechanism {
     /// Where each part has moved from its modelled place at the initial positions: machine_from_modelled.
@@ -46,8 +50,8 @@ impl Mechanism {
         primitives
     }
 
-    /// Parts that overlap at the start are an error.
-    pub(crate) fn check_start(&self) -> Result<(), Error> {
+    /// Parts that overlap at the start are an error; where the work for it runs out, a warning says so.
+    pub(crate) fn check_start(&self) -> Result<Option<Warning>, Error> {
         let primitives = self.start_primitives();
         let boxes: Vec<Bounds> = primitives.iter().map(Bounds::of).collect();
         let around = |csg: &mainspring_geometry::Csg| {
@@ -59,7 +63,9 @@ impl Mechanism {
             boxes: &boxes,
             plane_from_machine: self.plane.plane_from_machine,
             tolerance: self.tolerance,
+            work: Work::new(MAX_WORK),
         };
+        let mut unchecked = Vec::new();
         for j in 1..self.parts.len() {
             for i in 0..j {
                 let (a, b) = (&self.parts[i], &self.parts[j]);
@@ -67,9 +73,23 @@ impl Mechanism {
                 if let Some(clash) = start.clash(&a.csg, &b.csg, [&bounds[i], &bounds[j]], &meshes) {
                     return Err(self.clash_error(i, j, clash.point));
                 }
+                if start.work.ran_out() {
+                    unchecked.push((i, j));
+                }
             }
         }
-        Ok(())
+        Ok(self.unchecked(&unchecked))
+    }
+
+    fn unchecked(&self, pairs: &[(usize, usize)]) -> Option<Warning> {
+        let &(i, j) = pairs.first()?;
+        let others = match pairs.len() - 1 {
+            0 => String::new(),
+            n => format!(", nor were {n} other pairs of parts"),
+        };
+        let (a, b) = (&self.parts[i].name, &self.parts[j].name);
+        let message = format!("{a} and {b} have too many primitives to be checked for overlap{others}");
+        Some(Warning { place: None, parts: vec![i, j], message })
     }
 
     /// Names the parts and the place, and why they do not mesh if they nearly do.

@@ -4,6 +4,7 @@ use super::bounds::Bounds;
 use super::patch::{Line, Meeting, Scene, Site, scan};
 use super::region::{Carrier, Member, Region, within};
 use super::surface::{Face, parallel};
+use super::work::Work;
 use mainspring_geometry::{Shape, Vec2, Vec3};
 
 /// Lines laid over the rectangle where a tilted round primitive cuts it, besides the exact events.
@@ -38,11 +39,17 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Face, b: &Face)
             .into_iter()
             .flat_map(|p| [p, p + n * gap]),
     );
+    if !scene.work.spend(scene.primitives_of(sites)) {
+        return vec![];
+    }
     let regions = sites.map(|site| scene.region(site, &near, Carrier::Plane));
     let frame = Frame { origin, u, v, n, low: low.x, high: high.x };
     let mut breaks = vec![low.x, high.x];
     for (region, shift) in regions.iter().zip([0.0, gap]) {
-        events(region, &Frame { origin: origin + n * shift, ..frame }, scene.tolerance, &mut breaks);
+        let frame = Frame { origin: origin + n * shift, ..frame };
+        if !events(region, &frame, scene.tolerance, &scene.work, &mut breaks) {
+            return vec![];
+        }
     }
     breaks.retain(|s| *s >= low.x && *s <= high.x);
     let owners = [a, b]
@@ -53,9 +60,9 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Face, b: &Face)
         let (from, to) = (a.max(c).max(low.y), b.min(d).min(high.y));
         (to - from > scene.tolerance).then_some((from, to))
     };
-    let meeting = scan([&regions[0], &regions[1]], breaks, span, scene.tolerance, scene.tolerance, |s| {
-        Line { from: [at(s, 0.0), at(s, 0.0) + n * gap], along: v, normal: n }
-    });
+    let line = |s| Line { from: [at(s, 0.0), at(s, 0.0) + n * gap], along: v, normal: n };
+    let tolerance = scene.tolerance;
+    let meeting = scan([&regions[0], &regions[1]], breaks, span, tolerance, tolerance, &scene.work, line);
     patches(&meeting, gap, n, [*a, *b], at, scene.tolerance)
 }
 
@@ -138,7 +145,8 @@ enum Trace {
 }
 
 /// Positions of vertices: crossings of traces, and the leftmost and rightmost points of circles.
-fn events(region: &Region, frame: &Frame, tolerance: f64, breaks: &mut Vec<f64>) {
+/// False if the work ran out.
+fn events(region: &Region, frame: &Frame, tolerance: f64, work: &Work, breaks: &mut Vec<f64>) -> bool {
     let mut traces: Vec<(usize, Trace)> = Vec::new();
     let mut tilted = false;
     for (i, member) in region.members.iter().enumerate() {
@@ -155,11 +163,17 @@ fn events(region: &Region, frame: &Frame, tolerance: f64, breaks: &mut Vec<f64>)
         breaks.extend((1..EXTRA_LINES).map(|k| frame.low + k as f64 * step));
     }
     if traces.len() > MAX_TRACES {
-        return;
+        return true;
     }
     for (k, &(i, a)) in traces.iter().enumerate() {
+        let around = region.members[i].bounds.grown(tolerance);
+        let (mut other, mut near) = (usize::MAX, false);
         for &(j, b) in &traces[..k] {
-            if !region.members[i].bounds.touches(&region.members[j].bounds.grown(tolerance)) {
+            // The traces of a member are neighbours.
+            if j != other {
+                (other, near) = (j, around.touches(&region.members[j].bounds));
+            }
+            if !near {
                 continue;
             }
             for p in crossings(a, b).into_iter().flatten() {
@@ -173,7 +187,11 @@ fn events(region: &Region, frame: &Frame, tolerance: f64, breaks: &mut Vec<f64>)
                 }
             }
         }
+        if !work.spend(k + 1) {
+            return false;
+        }
     }
+    true
 }
 
 /// Hands out a member's traces; true if it has walls whose trace is neither a line nor a circle.

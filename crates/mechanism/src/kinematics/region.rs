@@ -78,33 +78,52 @@ impl Region {
         Region { members, csg, tolerance }
     }
 
-    /// Is there material just off `p` in the unit direction `d`?
+    /// The region as points of the line `p + t w` (unit `w`) see it: without the members it passes by.
+    pub(crate) fn along(&self, p: Vec3, w: Vec3) -> Thread<'_> {
+        let meets = |i: u32| self.members[i as usize].bounds.meets_line(p, w, 4.0 * self.tolerance);
+        Thread { region: self, csg: reduced(&self.csg, |i| meets(i).then_some(i)) }
+    }
+
+    /// Is there material along `from + t d`, 0 ≤ t ≤ `length`?
+    pub(crate) fn crosses_material(&self, from: Vec3, d: Vec3, length: f64) -> bool {
+        let mut cuts = vec![0.0, length];
+        let thread = self.along(from, d);
+        thread.crossings(from, d, &mut cuts);
+        cuts.retain(|t| (0.0..=length).contains(t));
+        cuts.sort_by(f64::total_cmp);
+        let mut stack = Vec::new();
+        cuts.windows(2).any(|c| {
+            let middle = from + d * within(c[0], c[1]);
+            c[1] - c[0] > self.tolerance && thread.inside(middle, d, &mut stack)
+        })
+    }
+}
+
+/// A region along a line.
+pub(crate) struct Thread<'a> {
+    region: &'a Region,
+    csg: Csg,
+}
+
+impl Thread<'_> {
+    /// Set operations that a question about a point costs.
+    pub(crate) fn cost(&self) -> usize {
+        self.csg.ops.len()
+    }
+
+    /// Is there material just off a point `p` of the line, in the unit direction `d`?
     pub(crate) fn inside(&self, p: Vec3, d: Vec3, stack: &mut Vec<bool>) -> bool {
-        self.csg.contains(|i| self.members[i as usize].holds(p, d, self.tolerance), stack)
+        let Region { members, tolerance, .. } = self.region;
+        self.csg.contains(|i| members[i as usize].holds(p, d, *tolerance), stack)
     }
 
     pub(crate) fn sides(&self, p: Vec3, normal: Vec3, stack: &mut Vec<bool>) -> Sides {
         Sides { behind: self.inside(p, -normal, stack), ahead: self.inside(p, normal, stack) }
     }
 
-    /// Is there material along `from + t d`, 0 ≤ t ≤ `length`?
-    pub(crate) fn crosses_material(&self, from: Vec3, d: Vec3, length: f64) -> bool {
-        let mut cuts = vec![0.0, length];
-        self.crossings(from, d, &mut cuts);
-        cuts.retain(|t| (0.0..=length).contains(t));
-        cuts.sort_by(f64::total_cmp);
-        let mut stack = Vec::new();
-        cuts.windows(2).any(|c| {
-            let middle = from + d * within(c[0], c[1]);
-            c[1] - c[0] > self.tolerance && self.inside(middle, d, &mut stack)
-        })
-    }
-
-    /// Appends every t at which `p + t w` (unit `w`) passes a wall of a member.
+    /// Appends every t at which `p + t w` (unit `w`) passes a wall of a member that matters.
     pub(crate) fn crossings(&self, p: Vec3, w: Vec3, out: &mut Vec<f64>) {
-        for member in self.members.iter().filter(|m| m.bounds.meets_line(p, w, 4.0 * self.tolerance)) {
-            member.crossings(p, w, out);
-        }
+        self.csg.leaves().for_each(|i| self.region.members[i as usize].crossings(p, w, out));
     }
 }
 

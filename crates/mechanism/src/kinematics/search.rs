@@ -88,7 +88,7 @@ const MAX_NEAR_FACES: usize = 400;
 pub(crate) fn with_more_play(scene: &Scene<'_>, solids: [&Solid<'_>; 2]) -> Option<([u32; 2], f64)> {
     let play = NEAR_PLAY * solids[0].bounds.diagonal().min(solids[1].bounds.diagonal());
     if !solids[0].bounds.grown(play).touches(&solids[1].bounds)
-        || face_pairs(solids, play, |_| true).len() > MAX_NEAR_FACES
+        || face_pairs(scene, solids, play, |_| true).len() > MAX_NEAR_FACES
     {
         return None;
     }
@@ -110,7 +110,7 @@ fn with_shaft(scene: &Scene<'_>, fits: &[ShaftFit], patches: Vec<PlanePatch>) ->
     }
     let view = View::new(origin, d, fits, &patches);
     let slides = !blocked_both_ways(&patches, d);
-    off_centre(&patches, d, scene.tolerance)?;
+    off_centre(scene, &patches, d)?;
     match around_shafts(&view.walls(fits, &[]), &view.walls(&[], &patches)) {
         Section::Locked => make(&patches, PairKind::of_freedoms(false, slides), None),
         Section::LockedOpen { exit } => {
@@ -144,14 +144,18 @@ fn around_shafts(shafts: &[Wall], faces: &[Wall]) -> Section {
 
 /// A pair made by plane faces: a block in a hole, however the hole was made.
 fn faces_only(scene: &Scene<'_>, solids: [&Solid<'_>; 2], clearance: f64) -> Result<Option<Fit>, Loose> {
-    let candidates = face_pairs(solids, clearance + scene.tolerance, |_| true);
+    let candidates = face_pairs(scene, solids, clearance + scene.tolerance, |_| true);
     let Some((first, _)) = candidates.first() else { return Ok(None) };
     if candidates.iter().all(|(a, _)| parallel(a.normal, first.normal)) {
         return Ok(None);
     }
     let (patches, _) = face_patches(scene, solids, clearance, |_| true);
     let mut best: Option<(u32, Fit)> = None;
+    let corners: usize = patches.iter().map(|p| p.corners.len()).sum();
     for d in directions(&patches) {
+        if !scene.work.spend(corners) {
+            break;
+        }
         let origin = middle(scene, &patches, d);
         let view = View::new(origin, d, &[], &patches);
         let across_d: Vec<PlanePatch> =
@@ -164,7 +168,7 @@ fn faces_only(scene: &Scene<'_>, solids: [&Solid<'_>; 2], clearance: f64) -> Res
             Section::LockedOpen { exit } => (3, Some(view.lift(exit))),
             _ => continue,
         };
-        off_centre(&across_d, d, scene.tolerance)?;
+        off_centre(scene, &across_d, d)?;
         if best.as_ref().is_none_or(|(r, _)| rank < *r) {
             let kind = PairKind::of_freedoms(false, slides);
             best = Some((
@@ -175,14 +179,16 @@ fn faces_only(scene: &Scene<'_>, solids: [&Solid<'_>; 2], clearance: f64) -> Res
     }
     match best {
         Some((_, fit)) => Ok(Some(fit)),
-        None => opposite(&patches).map_or(Ok(None), |primitives| Err(Loose::Faces { primitives })),
+        None => opposite(scene, &patches).map_or(Ok(None), |primitives| Err(Loose::Faces { primitives })),
     }
 }
 
 /// Two patches facing opposite ways: the parts embrace, yet form no pair.
-fn opposite(patches: &[PlanePatch]) -> Option<[u32; 2]> {
+fn opposite(scene: &Scene<'_>, patches: &[PlanePatch]) -> Option<[u32; 2]> {
     let against = |a: &PlanePatch, b: &PlanePatch| a.normal.dot(b.normal) < -1.0 + 1e-9;
-    let i = (0..patches.len()).find(|&i| patches[..i].iter().any(|p| against(p, &patches[i])))?;
+    let meets = |i: usize| patches[..i].iter().any(|p| against(p, &patches[i]));
+    let mut affordable = (0..patches.len()).take_while(|i| scene.work.spend(i / 8 + 1));
+    let i = affordable.find(|&i| meets(i))?;
     Some(patches[i].primitives())
 }
 
@@ -231,13 +237,24 @@ fn blocked_both_ways(patches: &[PlanePatch], d: Vec3) -> bool {
 }
 
 /// Faces on opposite sides must have the same play, or the fit has no centre to keep.
-fn off_centre(patches: &[PlanePatch], d: Vec3, tolerance: f64) -> Result<(), Loose> {
-    for (i, a) in patches.iter().enumerate() {
-        for b in &patches[..i] {
-            let opposed = perpendicular(a.normal, d) && a.normal.dot(b.normal) < -1.0 + 1e-9;
+fn off_centre(scene: &Scene<'_>, patches: &[PlanePatch], d: Vec3) -> Result<(), Loose> {
+    let tolerance = scene.tolerance;
+    // Patches with one normal and play are often many: the first of each speaks for all.
+    let mut known: Vec<&PlanePatch> = Vec::new();
+    for a in patches.iter().filter(|p| perpendicular(p.normal, d)) {
+        if !scene.work.spend(known.len() / 8 + 1) {
+            break;
+        }
+        for b in &known {
+            let opposed = a.normal.dot(b.normal) < -1.0 + 1e-9;
             if opposed && (a.gap - b.gap).abs() > 4.0 * tolerance {
                 return Err(Loose::OffCentre { primitives: a.primitives(), plays: (b.gap, a.gap) });
             }
+        }
+        let like =
+            |b: &&PlanePatch| a.normal.dot(b.normal) > 1.0 - 1e-12 && (a.gap - b.gap).abs() <= tolerance;
+        if !known.iter().any(like) {
+            known.push(a);
         }
     }
     Ok(())

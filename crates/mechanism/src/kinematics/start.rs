@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::region::{Carrier, Region, within};
+use super::work::Work;
 use mainspring_geometry::{Csg, CsgOp, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap};
 
 /// A point inside two parts at once, in machine coordinates.
@@ -16,6 +17,7 @@ pub(crate) struct Start<'a> {
     pub boxes: &'a [Bounds],
     pub plane_from_machine: Rigid3,
     pub tolerance: f64,
+    pub work: Work,
 }
 
 /// A mesh, by the primitives that are its envelopes.
@@ -26,7 +28,7 @@ pub(crate) enum Envelopes {
 }
 
 impl Start<'_> {
-    /// Where parts `a` and `b` overlap, their meshes left out.
+    /// Where parts `a` and `b` overlap, their meshes left out. If the work runs out, nothing is found.
     pub(crate) fn clash(
         &self,
         a: &Csg,
@@ -34,6 +36,7 @@ impl Start<'_> {
         bounds: [&Bounds; 2],
         meshes: &[Envelopes],
     ) -> Option<Clash> {
+        self.work.open(PAIR_WORK);
         if !bounds[0].touches(bounds[1]) {
             return None;
         }
@@ -69,7 +72,7 @@ impl Start<'_> {
             (0..lines * lines).find_map(|i| {
                 let spot = |i: usize, shift: f64| (i as f64 + shift) / lines as f64;
                 let from = low + u * spot(i / lines, 0.4719) + v * spot(i % lines, 0.5283);
-                along(&regions, from, w, self.tolerance)
+                along(&regions, from, w, self.tolerance, &self.work)
             })
         })
     }
@@ -80,21 +83,29 @@ const LINES: usize = 40;
 /// Bound on lines squared times set operations times primitives.
 const MAX_WORK: usize = 20_000_000;
 
-fn along(regions: &[Region; 2], from: Vec3, w: Vec3, tolerance: f64) -> Option<Clash> {
+/// Bound on the work for two parts.
+const PAIR_WORK: u64 = 4_000_000;
+
+fn along(regions: &[Region; 2], from: Vec3, w: Vec3, tolerance: f64, work: &Work) -> Option<Clash> {
     let length = w.norm();
-    if length <= tolerance {
+    if length <= tolerance || !work.spend(regions.iter().map(|r| r.members.len()).sum()) {
         return None;
     }
     let d = w * (1.0 / length);
     let mut cuts = vec![0.0, length];
-    regions.iter().for_each(|r| r.crossings(from, d, &mut cuts));
+    let threads = [0, 1].map(|i| regions[i].along(from, d));
+    threads.iter().for_each(|t| t.crossings(from, d, &mut cuts));
     cuts.retain(|t| (0.0..=length).contains(t));
     cuts.sort_by(f64::total_cmp);
+    let cost: usize = threads.iter().map(|t| t.cost()).sum();
+    if !work.spend(cuts.len() * (cost + 1)) {
+        return None;
+    }
     let mut stack = Vec::new();
     cuts.windows(2).find_map(|c| {
         let point = from + d * within(c[0], c[1]);
         let thick = c[1] - c[0] > 1e3 * tolerance;
-        (thick && regions.iter().all(|r| r.inside(point, d, &mut stack))).then_some(Clash { point })
+        (thick && threads.iter().all(|t| t.inside(point, d, &mut stack))).then_some(Clash { point })
     })
 }
 

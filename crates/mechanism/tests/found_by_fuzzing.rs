@@ -1,0 +1,42 @@
+//! Machines on which the fuzzer found that compiling took minutes, kept so that it never does again.
+
+mod support;
+
+use std::time::{Duration, Instant};
+use support::try_compile;
+
+/// Far above what is needed, also without optimization on a busy machine; far below what it was.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+const OVERLAP: &str = " overlap at the start, near ";
+
+/// Compiles a kept machine, which must end soon in one message saying `what`.
+fn ends_in(what: &str, text: &str) {
+    let start = Instant::now();
+    let error = try_compile(text, "", &Default::default()).expect_err("a machine full of faults").to_string();
+    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+    let place = error.strip_prefix("test.padl:").and_then(|e| e.split_once(": error: ")).map(|e| e.0);
+    assert!(place.is_some_and(|p| p.contains(':')) && error.contains(what), "{error}");
+}
+
+/// Two minutes: every face of some hundred wedges, cones and spheres, most of them copies lying on each other,
+/// was held against every other, each time with all primitives that reach there.
+#[test]
+fn wedges_and_spheres_that_share_their_faces() {
+    ends_in(OVERLAP, include_str!("fuzzed/wedges_and_spheres.padl"));
+}
+
+/// 25 seconds: copies turned by an odd angle make new planes, whose crossings were all looked for.
+#[test]
+fn tilted_copies() {
+    ends_in(OVERLAP, include_str!("fuzzed/tilted_copies.padl"));
+}
+
+/// Rows of rows of copies, marked as a gear: each of its cylinders was compared with all its primitives.
+#[test]
+fn rows_of_copies() {
+    ends_in(
+        "too many primitives to tell on which side its teeth are",
+        include_str!("fuzzed/rows_of_copies.padl"),
+    );
+}
