@@ -2,8 +2,9 @@
 
 mod support;
 
+use mainspring_mechanism::Warning;
 use std::time::{Duration, Instant};
-use support::try_compile;
+use support::{compile, try_compile};
 
 /// Far above what is needed, also without optimization on a busy machine; far below what it was.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -39,4 +40,15 @@ fn rows_of_copies() {
         "too many primitives to tell on which side its teeth are",
         include_str!("fuzzed/rows_of_copies.padl"),
     );
+}
+
+/// A minute: thousands of cylinders on one axis, each held against each other with all primitives around them.
+/// The work runs out, and the user is told.
+#[test]
+fn shafts_beside_shafts() {
+    let start = Instant::now();
+    let mechanism = compile(include_str!("fuzzed/shafts_beside_shafts.padl"));
+    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+    let told = |w: &Warning| w.message.contains("only the first were examined") && w.parts.len() == 2;
+    assert!(mechanism.warnings.iter().any(told), "{:?}", mechanism.warnings);
 }

@@ -18,12 +18,15 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Lateral, b: &La
     let (u, v) = across(d);
     let near = around(a.middle, d, span, a.radius.max(b.radius));
     let radii = [a.radius, b.radius];
+    if !scene.work.spend(scene.primitives_of(sites)) {
+        return Meeting::default();
+    }
     let regions = [0, 1].map(|i| {
         let carrier = Carrier::Cylinder { point: a.middle, direction: d, radius: radii[i] };
         scene.region(sites[i], &near, carrier)
     });
     let members: usize = regions.iter().map(|r| r.members.len()).sum();
-    if !scene.work.spend(scene.primitives_of(sites) + 8 * members) {
+    if !scene.work.spend(8 * members) {
         return Meeting::default();
     }
     let mut breaks = vec![0.0, TAU];

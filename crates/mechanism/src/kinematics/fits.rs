@@ -47,6 +47,9 @@ const NEAR_OFFSET: f64 = 0.1;
 const NEAR_GAP: f64 = 2.0;
 /// Face pairs examined for each pair of parts.
 const MAX_FACE_PAIRS: usize = 10_000;
+/// Work that a near miss kept in mind costs, and two faces near each other.
+const MISS: usize = 50;
+const FACE_PAIR: usize = 16;
 /// Of faces across the axis only the largest are examined.
 const MAX_END_PAIRS: usize = 500;
 
@@ -57,7 +60,14 @@ pub(crate) fn shafts(
 ) -> (Vec<ShaftFit>, Vec<ShaftMiss>) {
     let (mut fits, mut misses) = (Vec::new(), Vec::new());
     for a in &solids[0].laterals {
+        if !scene.work.spend(solids[1].laterals.len() / 8 + 1) {
+            break;
+        }
         for b in &solids[1].laterals {
+            // What was not looked at is no near miss.
+            if scene.work.ran_out() {
+                break;
+            }
             let difference = (a.radius - b.radius).abs();
             let larger = a.radius.max(b.radius);
             if difference > NEAR_RADIUS * larger + clearance || !parallel(a.direction, b.direction) {
@@ -77,10 +87,15 @@ pub(crate) fn shafts(
                 let apart = (b.middle - a.middle).dot(a.direction).abs() - 0.5 * (a.height + b.height);
                 if difference <= scene.tolerance && apart <= NEAR_GAP * (a.height + b.height) {
                     misses.push(miss(Some(apart.max(0.0)), [Seen::default(); 2]));
+                    scene.work.spend(MISS);
                 }
                 continue;
             }
             let meeting = cylinder_fit::meet(scene, [&solids[0].site, &solids[1].site], a, b);
+            scene.work.spend(MISS);
+            if scene.work.ran_out() {
+                break;
+            }
             match shaft_fit(laterals, &meeting, difference, clearance, scene.tolerance) {
                 Some(fit) => fits.push(fit),
                 None => misses.push(miss(None, meeting.seen)),
@@ -181,7 +196,7 @@ pub(crate) fn face_pairs(
                 pairs.push((Face { normal, ..*a }, *b));
             }
         }
-        if !scene.work.spend(pairs.len() - before) {
+        if !scene.work.spend(FACE_PAIR * (pairs.len() - before)) {
             break;
         }
     }

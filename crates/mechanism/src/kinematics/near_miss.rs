@@ -77,6 +77,8 @@ impl Miss {
     }
 }
 
+/// Axes of two parts on which the nearest miss is looked for.
+const MAX_AXES: usize = 500;
 /// Near misses listed for one pair of parts.
 const MAX_LISTED: usize = 3;
 
@@ -102,10 +104,12 @@ pub(crate) fn relevant(
             continue;
         }
         let Some((rank, why)) = why(miss, pair.is_some(), tolerance) else { continue };
+        let full = best.len() >= MAX_AXES;
         match best.iter_mut().find(|(_, m, _)| same_axis(m)) {
             Some(known) if better(rank, &why, known.0, &known.2) => *known = (rank, miss, why),
             Some(_) => {}
-            None => best.push((rank, miss, why)),
+            None if !full => best.push((rank, miss, why)),
+            None => {}
         }
     }
     best.sort_by_key(|(rank, ..)| *rank);

@@ -5,7 +5,7 @@
 //! the surface and that of the other ahead of it, both judged at a point within the cell.
 
 use super::bounds::Bounds;
-use super::region::{Carrier, Region, Sides, Thread, within};
+use super::region::{Carrier, Member, Region, Sides, Thread, within};
 use super::work::Work;
 use mainspring_geometry::Vec3;
 
@@ -147,6 +147,11 @@ impl Scene<'_> {
     pub(crate) fn primitives_of(&self, sites: [&Site<'_>; 2]) -> usize {
         // Most are passed by at once.
         sites.iter().map(|s| s.csg.ops.len() / 8).sum()
+    }
+
+    pub(crate) fn member(&self, i: u32, carrier: Carrier) -> Member {
+        let (primitive, bounds) = (&self.primitives[i as usize], self.boxes[i as usize]);
+        Member::new(primitive, bounds, carrier, self.tolerance)
     }
 
     pub(crate) fn region(&self, site: &Site<'_>, near: &Bounds, carrier: Carrier) -> Region {

@@ -43,6 +43,10 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Face, b: &Face)
         return vec![];
     }
     let regions = sites.map(|site| scene.region(site, &near, Carrier::Plane));
+    let members: usize = regions.iter().map(|r| r.members.len()).sum();
+    if !scene.work.spend(4 * members) {
+        return vec![];
+    }
     let frame = Frame { origin, u, v, n, low: low.x, high: high.x };
     let mut breaks = vec![low.x, high.x];
     for (region, shift) in regions.iter().zip([0.0, gap]) {
@@ -52,8 +56,7 @@ pub(crate) fn meet(scene: &Scene<'_>, sites: [&Site<'_>; 2], a: &Face, b: &Face)
         }
     }
     breaks.retain(|s| *s >= low.x && *s <= high.x);
-    let owners = [a, b]
-        .map(|f| Member::new(&scene.primitives[f.id.primitive as usize], Carrier::Plane, scene.tolerance));
+    let owners = [a, b].map(|f| scene.member(f.id.primitive, Carrier::Plane));
     let span = |line: &Line| {
         let [a, b] = [0, 1].map(|i| on_face(&owners[i], line, i, scene.tolerance));
         let ((a, b), (c, d)) = (a?, b?);

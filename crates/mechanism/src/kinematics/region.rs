@@ -71,7 +71,7 @@ impl Region {
         let mut members = Vec::new();
         let csg = reduced(csg, |i| {
             boxes[i as usize].touches(&near).then(|| {
-                members.push(Member::new(&all[i as usize], carrier, tolerance));
+                members.push(Member::new(&all[i as usize], boxes[i as usize], carrier, tolerance));
                 members.len() as u32 - 1
             })
         });
@@ -164,7 +164,7 @@ pub(crate) fn without_leaves(csg: &Csg, left_out: &[u32]) -> Csg {
 type Wall = (f64, f64);
 
 impl Member {
-    pub(crate) fn new(primitive: &Primitive, carrier: Carrier, tolerance: f64) -> Self {
+    pub(crate) fn new(primitive: &Primitive, bounds: Bounds, carrier: Carrier, tolerance: f64) -> Self {
         let Primitive { shape, machine_from_local } = *primitive;
         let axis = machine_from_local.columns[2];
         let coincide = match (carrier, shape) {
@@ -177,7 +177,7 @@ impl Member {
             (Carrier::Cylinder { .. }, _) => [false, false],
         };
         let local_from_machine = machine_from_local.inverse();
-        Member { shape, machine_from_local, local_from_machine, bounds: Bounds::of(primitive), coincide }
+        Member { shape, machine_from_local, local_from_machine, bounds, coincide }
     }
 
     fn holds(&self, p: Vec3, d: Vec3, tolerance: f64) -> bool {

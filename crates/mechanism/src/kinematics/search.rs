@@ -11,6 +11,7 @@ use super::patch::Scene;
 use super::plane_fit::PlanePatch;
 use super::section::{Section, Wall, may_turn, section, wall};
 use super::surface::{across, canonical, parallel, perpendicular};
+use super::work::Work;
 use mainspring_geometry::{Vec2, Vec3};
 
 /// What the shapes of two parts say about each other.
@@ -111,7 +112,7 @@ fn with_shaft(scene: &Scene<'_>, fits: &[ShaftFit], patches: Vec<PlanePatch>) ->
     let view = View::new(origin, d, fits, &patches);
     let slides = !blocked_both_ways(&patches, d);
     off_centre(scene, &patches, d)?;
-    match around_shafts(&view.walls(fits, &[]), &view.walls(&[], &patches)) {
+    match around_shafts(&view.walls(fits, &[]), &view.walls(&[], &patches), &scene.work) {
         Section::Locked => make(&patches, PairKind::of_freedoms(false, slides), None),
         Section::LockedOpen { exit } => {
             make(&patches, PairKind::of_freedoms(false, slides), Some(view.lift(exit)))
@@ -130,15 +131,15 @@ fn with_shaft(scene: &Scene<'_>, fits: &[ShaftFit], patches: Vec<PlanePatch>) ->
 
 /// What shafts and side faces leave. A part that leans on a stop may still turn the other way: only faces that forbid
 /// turning both ways count against a bearing.
-fn around_shafts(shafts: &[Wall], faces: &[Wall]) -> Section {
+fn around_shafts(shafts: &[Wall], faces: &[Wall], work: &Work) -> Section {
     let all = [shafts, faces].concat();
-    match section(shafts) {
+    match section(shafts, work) {
         Section::Turning { center } if may_turn(faces, center) => Section::Turning { center },
         Section::Turning { .. } => Section::Locked,
         Section::TurningOpen { center, exit } if may_turn(faces, center) => {
             Section::TurningOpen { center, exit }
         }
-        _ => section(&all),
+        _ => section(&all, work),
     }
 }
 
@@ -161,7 +162,7 @@ fn faces_only(scene: &Scene<'_>, solids: [&Solid<'_>; 2], clearance: f64) -> Res
         let across_d: Vec<PlanePatch> =
             patches.iter().filter(|p| perpendicular(p.normal, d)).cloned().collect();
         let slides = !blocked_both_ways(&patches, d);
-        let (rank, exit) = match section(&view.walls(&[], &across_d)) {
+        let (rank, exit) = match section(&view.walls(&[], &across_d), &scene.work) {
             Section::Locked if slides => (0, None),
             Section::Locked => (1, None),
             Section::LockedOpen { exit } if slides => (2, Some(view.lift(exit))),

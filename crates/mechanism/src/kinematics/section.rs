@@ -4,6 +4,7 @@
 //! moving part, material forbids n·(v + ω × p) > 0. All such half-spaces together leave a cone of twists; its shape
 //! tells the pair: nothing left is a prismatic fit, one turning twist and its opposite a round one.
 
+use super::work::Work;
 use mainspring_geometry::Vec2;
 
 /// A constraint on (vx, vy, ω): the product must not be positive.
@@ -34,12 +35,13 @@ const NEARLY_ZERO: f64 = 1e-7;
 /// More different walls than this are not examined singly: every so-many-th is.
 const MAX_WALLS: usize = 160;
 
-pub(crate) fn section(walls: &[Wall]) -> Section {
-    let walls = distinct(walls);
+/// Where the work runs out, anything may seem free.
+pub(crate) fn section(walls: &[Wall], work: &Work) -> Section {
+    let walls = distinct(walls, work);
     let Some((first, second)) = spanning(&walls) else { return Section::Free };
     let t = unit(cross(first, second));
     if walls.iter().any(|w| dot(*w, t).abs() > NEARLY_ZERO) {
-        return pointed(&walls);
+        return pointed(&walls, work);
     }
     if t[2].abs() < NEARLY_ZERO {
         return Section::Free;
@@ -55,9 +57,12 @@ pub(crate) fn may_turn(walls: &[Wall], center: Vec2) -> bool {
 }
 
 /// Walls of rank 3: the cone is given by its extreme rays, where two walls hold with equality.
-fn pointed(walls: &[Wall]) -> Section {
+fn pointed(walls: &[Wall], work: &Work) -> Section {
     let mut rays: Vec<Wall> = Vec::new();
     for (i, a) in walls.iter().enumerate() {
+        if !work.spend(i / 2) {
+            return Section::Free;
+        }
         for b in &walls[..i] {
             let t = cross(*a, *b);
             if dot(t, t).sqrt() < NEARLY_ZERO {
@@ -101,11 +106,14 @@ fn around_center(walls: &[Wall], center: Vec2) -> Section {
     }
 }
 
-fn distinct(walls: &[Wall]) -> Vec<Wall> {
+fn distinct(walls: &[Wall], work: &Work) -> Vec<Wall> {
     let mut sorted: Vec<Wall> = walls.iter().map(|w| unit(*w)).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2])));
     let mut kept: Vec<Wall> = Vec::new();
     for w in sorted {
+        if !work.spend(kept.len() / 8 + 1) {
+            break;
+        }
         if kept.iter().all(|k| dot(*k, w) < 1.0 - 1e-12) {
             kept.push(w);
         }
@@ -138,6 +146,10 @@ fn unit(a: Wall) -> Wall {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn section(walls: &[Wall]) -> Section {
+        super::section(walls, &Work::new(10_000))
+    }
 
     fn v(x: f64, y: f64) -> Vec2 {
         Vec2::new(x, y)
