@@ -89,6 +89,13 @@ pub struct Floors {
     pub v: Vec<f64>,
 }
 
+impl Candidate {
+    /// Matched by M · P_confirm instances beyond the first.
+    fn is_confirmed(&self, options: &MatchOptions) -> bool {
+        u64::from(self.belief) >= self.minima as u64 * u64::from(options.confirm)
+    }
+}
+
 /// Searches one series of points.
 #[derive(Clone, Debug, Default)]
 pub struct Series {
@@ -138,36 +145,69 @@ impl Series {
                 }
             },
         }
+        self.confirmed(last, options).or_else(|| self.reconsidered(last, ignore, floors, options))
+    }
+
+    /// A shorter pattern that fell during a transient and has held since: formed again only when all the instances
+    /// it needs are there already.
+    fn reconsidered(
+        &mut self,
+        last: usize,
+        ignore: usize,
+        floors: &Floors,
+        options: &MatchOptions,
+    ) -> Option<Pattern> {
+        let tried = self.present.as_ref().map_or(0, |c| c.minima);
+        let candidate = (1..tried)
+            .map(|minima| self.candidate(minima, last, ignore, floors, options))
+            .find(|c| c.is_confirmed(options))?;
+        let now = self.points[last].t;
+        if let Some(h) = self.hypotheses.last_mut() {
+            (h.fell, h.why) = (Some(now), Some("a shorter pattern holds".into()));
+        }
+        self.hypotheses.push(Hypothesis { minima: candidate.minima, formed: now, fell: None, why: None });
+        self.present = Some(candidate);
         self.confirmed(last, options)
     }
 
-    /// Forms the hypothesis of M points from the last instance, credited with earlier instances that match it.
+    /// Forms the hypothesis of M points from the last instance.
     fn form(&mut self, minima: usize, last: usize, ignore: usize, floors: &Floors, options: &MatchOptions) {
         if last < minima {
             return;
         }
+        let formed = self.points[last].t;
+        self.hypotheses.push(Hypothesis { minima, formed, fell: None, why: None });
+        self.present = Some(self.candidate(minima, last, ignore, floors, options));
+    }
+
+    /// The candidate of M points by the last instance, credited with the instances before that match it, as far as
+    /// its confirmation needs.
+    fn candidate(
+        &self,
+        minima: usize,
+        last: usize,
+        ignore: usize,
+        floors: &Floors,
+        options: &MatchOptions,
+    ) -> Candidate {
         let (a, b) = (&self.points[last - minima], &self.points[last]);
-        let mut candidate = Candidate {
-            minima,
-            duration: b.t - a.t,
-            change: change(a, b),
-            belief: 0,
-            matched_from: last - minima,
-        };
-        self.hypotheses.push(Hypothesis { minima, formed: b.t, fell: None, why: None });
+        let (duration, change) = (b.t - a.t, change(a, b));
+        let mut candidate = Candidate { minima, duration, change, belief: 0, matched_from: last - minima };
         for end in (ignore + minima..last).rev() {
-            if self.mismatch(&candidate, end, &[], floors, options).is_some() {
+            if candidate.is_confirmed(options)
+                || self.mismatch(&candidate, end, &[], floors, options).is_some()
+            {
                 break;
             }
             candidate.belief += 1;
             candidate.matched_from = end - minima;
         }
-        self.present = Some(candidate);
+        candidate
     }
 
     fn confirmed(&self, last: usize, options: &MatchOptions) -> Option<Pattern> {
         let c = self.present.as_ref()?;
-        if u64::from(c.belief) < c.minima as u64 * u64::from(options.confirm) {
+        if !c.is_confirmed(options) {
             return None;
         }
         let start = last - c.minima;

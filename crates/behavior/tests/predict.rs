@@ -124,6 +124,19 @@ fn a_wheel_at_terminal_speed_repeats_by_turns() {
     assert_eq!(found.outcome, Outcome::NoPattern(NoPattern::ConstantKineticEnergy));
 }
 
+/// From rest the same wheel first gathers speed. While it does every pattern falls; the shortest one is formed again
+/// once enough turns agree.
+#[test]
+fn a_wheel_that_gathers_speed_repeats_in_the_end() {
+    let found = predicted(&spinning(2.0, 1.0, 3.0, 0.0), &PredictOptions::default());
+    let Outcome::Repeats { pattern, start, .. } = &found.outcome else { panic!("{:?}", found.outcome) };
+    assert_eq!(pattern.minima, 1);
+    close(pattern.duration, std::f64::consts::TAU / 3.0, 1e-6);
+    assert!(start.t > 20.0 && start.t < 100.0, "{}", start.t);
+    let again = found.hypotheses.iter().filter(|h| h.minima == 1).count();
+    assert_eq!(again, 2, "formed at first, and again in the end");
+}
+
 /// The bounds on work are kept: too few minima or too little time are said to be so.
 #[test]
 fn it_gives_up_when_told() {

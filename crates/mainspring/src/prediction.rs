@@ -16,6 +16,7 @@ pub struct PredictionResult {
     hypotheses: Vec<Hypothesis>,
     run: Arc<SimulationResult>,
     slides: Vec<bool>,
+    state_match: f64,
 }
 
 /// Runs a mechanism from its initial state until it is known what it will do.
@@ -39,7 +40,8 @@ pub fn predict(
     let run = Arc::new(SimulationResult::new(mechanism, system.clone(), found.run, simulation, 0.0));
     let moves = |i: &usize| mechanism.subsystem_of(*i).is_some();
     let slides = (0..mechanism.parts.len()).filter(moves).map(|i| mechanism.slides(i)).collect();
-    Ok(PredictionResult { outcome: found.outcome, hypotheses: found.hypotheses, run, slides })
+    let state_match = options.matching.state_match;
+    Ok(PredictionResult { outcome: found.outcome, hypotheses: found.hypotheses, run, slides, state_match })
 }
 
 impl PredictionResult {
@@ -51,6 +53,11 @@ impl PredictionResult {
     /// Whether each moving part slides (and does not turn), in the order of the run's parts.
     pub(crate) fn slides(&self) -> &[bool] {
         &self.slides
+    }
+
+    /// P_s_v_match: changes are told apart to this fraction of a part's range within one pattern.
+    pub(crate) fn state_match(&self) -> f64 {
+        self.state_match
     }
 
     /// The object that `predict --json` prints.

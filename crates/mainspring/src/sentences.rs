@@ -8,20 +8,22 @@ use mainspring_dynamics::Closed;
 /// One to three sentences.
 pub fn sentences(p: &PredictionResult) -> Vec<String> {
     match &p.outcome {
-        Outcome::Repeats { pattern, .. } => repeats(p, pattern),
+        Outcome::Repeats { pattern, start, .. } => repeats(p, pattern, start.t),
         Outcome::ComesToRest { t, held, jammed } => rests(p, *t, held, *jammed),
         Outcome::NoPattern(reason) => vec![no_pattern(p, *reason)],
         Outcome::Stopped => vec!["Stopped before it was known what the machine does.".into()],
     }
 }
 
-fn repeats(p: &PredictionResult, pattern: &Pattern) -> Vec<String> {
+/// A change that the matching itself could not tell from none counts as a return.
+fn repeats(p: &PredictionResult, pattern: &Pattern, from: f64) -> Vec<String> {
     let mut advancing = Vec::new();
     let mut returning = Vec::new();
     let slides = p.slides();
     for (i, (name, q, _)) in p.changes(pattern).into_iter().enumerate() {
         let tiny = 1e-6 * if slides[i] { p.run().system().size } else { 1.0 };
-        if q.abs() <= tiny.max(0.005 * travel(p, i)) {
+        let blur = p.state_match() * travel(p, i, from, pattern.duration);
+        if q.abs() <= tiny.max(blur) {
             returning.push(name);
         } else if slides[i] {
             advancing.push(format!("{name} moves by {}", signed(q, 4)));
@@ -43,10 +45,12 @@ fn repeats(p: &PredictionResult, pattern: &Pattern) -> Vec<String> {
     out
 }
 
-/// How far part `i` ranges over the simulated stretch.
-fn travel(p: &PredictionResult, i: usize) -> f64 {
+/// How far part `i` ranges within one instance of the pattern.
+fn travel(p: &PredictionResult, i: usize, from: f64, duration: f64) -> f64 {
     let run = p.run();
-    let positions = run.times().iter().map(|t| run.at(*t).0[i]);
+    let samples = run.times().iter().filter(|t| (from..=from + duration).contains(*t)).copied();
+    let ends = [from, from + 0.25 * duration, from + 0.5 * duration, from + 0.75 * duration, from + duration];
+    let positions = samples.chain(ends).map(|t| run.at(t).0[i]);
     let (low, high) = positions.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
     high - low
 }

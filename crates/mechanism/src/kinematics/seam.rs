@@ -1,14 +1,12 @@
 //! The seam to contact and dynamics: coordinates, bodies, and the surfaces that are no contact features.
 
-use super::bounds::Bounds;
 use super::mechanism::Mechanism;
 use super::pair::PairKind;
-use super::reach::Parts;
-use super::subsystems::{Hold, Subsystem};
+use super::subsystems::Subsystem;
 use super::surface::{parallel, perpendicular};
 use crate::interaction::{Exclusion, System};
 use crate::system::{Body, Coordinate, Joint, Motion};
-use mainspring_geometry::{Csg, Vec2};
+use mainspring_geometry::Vec2;
 use mainspring_model::Error;
 
 impl Mechanism {
@@ -183,31 +181,22 @@ impl Mechanism {
     }
 
     fn check_outlines(&self) -> Result<(), Error> {
-        let boxes: Vec<Bounds> = self.primitives.iter().map(Bounds::of).collect();
-        let csgs: Vec<&Csg> = self.parts.iter().map(|p| &p.csg).collect();
-        let leaves: Vec<Vec<u32>> = csgs.iter().map(|c| super::compile::leaves(c)).collect();
-        let hold = |p: &super::mechanism::Part| Some(Hold { pair: p.joint?, carrier: p.carrier? });
-        let holds: Vec<Option<Hold>> = self.parts.iter().map(hold).collect();
-        let parts = Parts {
-            primitives: &self.primitives,
-            boxes: &boxes,
-            csgs: &csgs,
-            leaves: &leaves,
-            holds: &holds,
-            pairs: &self.pairs,
-            tolerance: self.tolerance,
-        };
-        for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.outline.is_none()) {
-            let touched = |j: &usize| *j != i && parts.may_touch(i, *j, self.plane.normal);
-            if let Some(j) = (0..self.parts.len()).find(touched) {
-                let place = part.tilted.map_or(part.place, |p| self.machine.place_of_primitive(p));
-                let why = part.note.as_deref().unwrap_or("it has no planar outline");
-                let message =
-                    format!("{} may touch {}, but {why}, expected prisms", part.name, self.parts[j].name);
-                return Err(self.machine.error(place, message));
-            }
+        if self.parts.iter().all(|p| p.outline.is_some()) {
+            return Ok(());
         }
-        Ok(())
+        self.with_reach(|parts| {
+            for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.outline.is_none()) {
+                let touched = |j: &usize| *j != i && parts.may_touch(i, *j, self.plane.normal);
+                if let Some(j) = (0..self.parts.len()).find(touched) {
+                    let place = part.tilted.map_or(part.place, |p| self.machine.place_of_primitive(p));
+                    let why = part.note.as_deref().unwrap_or("it has no planar outline");
+                    let message =
+                        format!("{} may touch {}, but {why}, expected prisms", part.name, self.parts[j].name);
+                    return Err(self.machine.error(place, message));
+                }
+            }
+            Ok(())
+        })
     }
 
     /// Surfaces of lower pairs and gear envelopes: between the parts of the pair they are no contact features.

@@ -64,12 +64,21 @@ impl Mechanism {
         if let Ok(system) = self.system() {
             return system.interactions.iter().map(|i| i.bodies).collect();
         }
+        self.with_reach(|parts| {
+            let n = self.parts.len();
+            let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+            all.filter(|&(i, j)| parts.may_touch(i, j, self.plane.normal)).collect()
+        })
+    }
+
+    /// Hands over what is needed to tell how far parts reach.
+    pub(crate) fn with_reach<T>(&self, ask: impl FnOnce(&Parts) -> T) -> T {
         let boxes: Vec<Bounds> = self.primitives.iter().map(Bounds::of).collect();
         let csgs: Vec<&Csg> = self.parts.iter().map(|p| &p.csg).collect();
         let leaves: Vec<Vec<u32>> = csgs.iter().map(|c| super::compile::leaves(c)).collect();
         let hold = |p: &super::mechanism::Part| Some(Hold { pair: p.joint?, carrier: p.carrier? });
         let holds: Vec<Option<Hold>> = self.parts.iter().map(hold).collect();
-        let parts = Parts {
+        ask(&Parts {
             primitives: &self.primitives,
             boxes: &boxes,
             csgs: &csgs,
@@ -77,9 +86,6 @@ impl Mechanism {
             holds: &holds,
             pairs: &self.pairs,
             tolerance: self.tolerance,
-        };
-        let n = self.parts.len();
-        let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-        all.filter(|&(i, j)| parts.may_touch(i, j, self.plane.normal)).collect()
+        })
     }
 }
