@@ -1,0 +1,121 @@
+//! The search for curves that matter: boxes of configurations, halved until few feature pairs can touch in each.
+//!
+//! A box in which no pair can touch is free or blocked throughout; one that is surely blocked (`witness`) bounds no free
+//! space. Both are left at once, so the cost follows the free boundary and not the number of all curves. In a small box
+//! the curves' elements are cut against each other. Free space ends only at contacts, and no end of a free stretch lies
+//! in a surely blocked box: every such end is found.
+
+use crate::cross::Cuts;
+use crate::error::SpaceError;
+use crate::pairs::{Catalogue, Cell};
+use crate::witness::Witnesses;
+use mainspring_mechanism::Pose;
+
+/// Feature pairs at which a box is no longer halved.
+const FEW: usize = 6;
+/// A box is not halved when its motion is below this part of the size.
+const SMALL: f64 = 1e-3;
+
+/// What the search did: counts of work.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Boxes looked at.
+    pub cells: usize,
+    /// Of these, boxes proved blocked.
+    pub blocked: usize,
+    /// Boxes in which curves were cut against each other.
+    pub leaves: usize,
+    /// Feature pairs with curves made.
+    pub pairs: usize,
+    /// Elements of those curves.
+    pub elements: usize,
+    /// Stretches tested for being free.
+    pub tested: usize,
+}
+
+type Front = Vec<(u32, u32)>;
+
+pub(crate) fn search(
+    catalogue: &mut Catalogue,
+    witnesses: &Witnesses,
+    cuts: &mut Cuts,
+    budget: usize,
+) -> Result<Work, SpaceError> {
+    let mut work = Work::default();
+    if catalogue.trees.iter().any(|t| t.nodes.is_empty()) {
+        return Ok(work);
+    }
+    let frame = catalogue.frame;
+    let half = frame.axes.map(|a| 0.5 * a.length);
+    let center = [0, 1].map(|k| frame.axes[k].start + half[k]);
+    let levers = [0, 1].map(|k| catalogue.parts[k].iter().map(|p| p.lever).fold(0.0, f64::max));
+    let mut pending: Vec<(Cell, Front)> = vec![(Cell { center, half }, vec![(0, 0)])];
+    while let Some((cell, front)) = pending.pop() {
+        work.cells += 1;
+        if work.cells > budget {
+            return Err(SpaceError::TooComplex { budget });
+        }
+        let poses = [0, 1].map(|k| frame.moving[k].place(cell.center[k]));
+        let motion = [levers[0] * cell.half[0], levers[1] * cell.half[1]];
+        let (front, fine) = refine(catalogue, front, &poses, &cell, motion[0] + motion[1]);
+        if front.is_empty() {
+            continue;
+        }
+        if witnesses.blocked(&frame.moving, &poses, cell.half) {
+            work.blocked += 1;
+            continue;
+        }
+        if fine && (front.len() <= FEW || motion[0] + motion[1] < SMALL * frame.size) {
+            work.leaves += 1;
+            cuts.cut(catalogue, &front, &cell);
+            continue;
+        }
+        let axis = usize::from(motion[1] > motion[0]);
+        for side in [1.0, -1.0] {
+            let mut part = cell;
+            part.half[axis] *= 0.5;
+            part.center[axis] += side * part.half[axis];
+            pending.push((part, front.clone()));
+        }
+    }
+    work.pairs = catalogue.curves.len();
+    work.elements = catalogue.elements.len();
+    Ok(work)
+}
+
+/// Drops node pairs out of reach and opens those larger than the box's motion; all, when few are left. Says whether
+/// all are single features.
+fn refine(catalogue: &Catalogue, front: Front, poses: &[Pose; 2], cell: &Cell, motion: f64) -> (Front, bool) {
+    let [ta, tb] = &catalogue.trees;
+    let mut kept: Front = Vec::new();
+    let mut open = front;
+    for all in [false, true] {
+        while let Some((i, j)) = open.pop() {
+            let (m, n) = (&ta.nodes[i as usize], &tb.nodes[j as usize]);
+            if !catalogue.near(i, j, poses, cell.half) {
+                continue;
+            }
+            if m.leaf && n.leaf {
+                if catalogue.may_touch(m.link, n.link, poses, cell.half) {
+                    kept.push((i, j));
+                }
+            } else if all || m.radius + n.radius > motion {
+                let first = !m.leaf && (n.leaf || m.radius >= n.radius);
+                if first {
+                    open.extend(ta.children(i).map(|k| (k, j)));
+                } else {
+                    open.extend(tb.children(j).map(|k| (i, k)));
+                }
+            } else {
+                kept.push((i, j));
+            }
+        }
+        if all || kept.len() > 4 * FEW {
+            break;
+        }
+        open = std::mem::take(&mut kept);
+    }
+    kept.sort_unstable();
+    let fine = kept.iter().all(|&(i, j)| ta.nodes[i as usize].leaf && tb.nodes[j as usize].leaf);
+    (kept, fine)
+}

@@ -1,0 +1,157 @@
+//! Elements: stretches of trimmed contact curves on which v is a monotone function of u, or u is constant.
+
+use crate::domain::Axis;
+use crate::equation::Equation;
+use crate::limits;
+use crate::moving::{Moving, Roots};
+
+/// Least width of an element (scaled position): narrower ones lie within rounding of a critical position.
+const LEAST: f64 = 1e-11;
+/// A contact lies on its features when its margin is above minus this.
+const MARGIN: f64 = 1e-9;
+
+/// A stretch of a contact curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Element {
+    /// Index of the feature pair.
+    pub pair: u32,
+    /// ±1: which root; 0: u is constant ("upright").
+    pub branch: f64,
+    pub u: [f64; 2],
+    /// v at both ends; monotone between. For an upright element increasing.
+    pub v: [f64; 2],
+}
+
+/// What curves are made for: the bodies, the domain, the unit of length.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    pub moving: [Moving; 2],
+    pub axes: [Axis; 2],
+    pub size: f64,
+}
+
+impl Element {
+    pub fn is_upright(&self) -> bool {
+        self.branch == 0.0
+    }
+
+    pub fn v_range(&self) -> (f64, f64) {
+        (self.v[0].min(self.v[1]), self.v[0].max(self.v[1]))
+    }
+
+    /// v at u; for an upright element not defined.
+    pub fn v_at(&self, eq: &Equation, frame: &Frame, u: f64) -> f64 {
+        let roots = eq.solve_v(&frame.moving, u);
+        self.pick(&roots, frame)
+    }
+
+    pub fn pick(&self, roots: &Roots, frame: &Frame) -> f64 {
+        let middle = 0.5 * (self.v[0] + self.v[1]);
+        let (low, high) = self.v_range();
+        let v = frame.axes[1].nearest(roots.root(self.branch), middle);
+        // Without a root (a body on its own axis) the ends agree to rounding.
+        if v.is_finite() { v.clamp(low, high) } else { middle }
+    }
+}
+
+/// Work space for critical positions.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    raw: Vec<f64>,
+    critical: Vec<f64>,
+}
+
+/// All elements of a feature pair within the domain, by u.
+pub(crate) fn elements(pair: u32, eq: &Equation, frame: &Frame, scratch: &mut Scratch, out: &mut Vec<Element>) {
+    if eq.is_upright(&frame.moving, 1e-10 * frame.size) {
+        upright(pair, eq, frame, scratch, out);
+        return;
+    }
+    let (m, [au, av]) = (&frame.moving, &frame.axes);
+    scratch.raw.clear();
+    limits::folds(eq, m, &mut scratch.raw);
+    limits::ends(eq, m, &mut scratch.raw);
+    limits::level(eq, m, av.start, &mut scratch.raw);
+    limits::level(eq, m, av.end(), &mut scratch.raw);
+    limits::extremes(eq, m, &mut scratch.raw);
+    scratch.sort(au);
+    for k in 1..scratch.critical.len() {
+        let (a, b) = (scratch.critical[k - 1], scratch.critical[k]);
+        if b - a < LEAST {
+            continue;
+        }
+        let middle = 0.5 * (a + b);
+        let roots = eq.solve_v(m, middle);
+        for branch in branches(&roots) {
+            let Some(v) = av.place(roots.root(branch), 0.0) else { continue };
+            let poses = [m[0].place(middle), m[1].place(v)];
+            if eq.margin(&poses, frame.size) >= -MARGIN {
+                graph(pair, eq, frame, (branch, a, b), out, 4);
+            }
+        }
+    }
+}
+
+fn branches(roots: &Roots) -> impl Iterator<Item = f64> + use<> {
+    let count = if !roots.reach { 0 } else if roots.single { 1 } else { 2 };
+    [1.0, -1.0].into_iter().take(count)
+}
+
+impl Scratch {
+    /// Critical positions within the domain, its limits included, in order and without repetition.
+    fn sort(&mut self, axis: &Axis) {
+        self.critical.clear();
+        self.critical.extend([axis.start, axis.end()]);
+        let placed = self.raw.iter().filter_map(|&u| axis.place(u, 0.0));
+        self.critical.extend(placed.filter(|u| u.is_finite()));
+        self.critical.sort_by(f64::total_cmp);
+        self.critical.dedup_by(|b, a| *b - *a < LEAST);
+    }
+}
+
+/// Adds one stretch; wide ones in halves, so that which turn v belongs to is never in doubt.
+fn graph(
+    pair: u32,
+    eq: &Equation,
+    frame: &Frame,
+    (branch, a, b): (f64, f64, f64),
+    out: &mut Vec<Element>,
+    halvings: u32,
+) {
+    let axis = &frame.axes[1];
+    let inner = 1e-3 * (b - a);
+    let at = |u: f64| eq.solve_v(&frame.moving, u).root(branch);
+    let end = |u: f64, within: f64| {
+        let near = axis.place(at(within), 1e-9)?;
+        Some(axis.nearest(at(u), near).clamp(axis.start, axis.end()))
+    };
+    let (Some(va), Some(vb)) = (end(a, a + inner), end(b, b - inner)) else { return };
+    if (va - vb).abs() > 3.0 && axis.turns && halvings > 0 {
+        let middle = 0.5 * (a + b);
+        graph(pair, eq, frame, (branch, a, middle), out, halvings - 1);
+        graph(pair, eq, frame, (branch, middle, b), out, halvings - 1);
+        return;
+    }
+    out.push(Element { pair, branch, u: [a, b], v: [va, vb] });
+}
+
+fn upright(pair: u32, eq: &Equation, frame: &Frame, scratch: &mut Scratch, out: &mut Vec<Element>) {
+    let (m, [au, av]) = (&frame.moving, &frame.axes);
+    let mut positions = Vec::new();
+    limits::level(eq, m, av.start, &mut positions);
+    positions.sort_by(f64::total_cmp);
+    positions.dedup_by(|b, a| *b - *a < LEAST);
+    for u in positions {
+        let Some(u) = au.place(u, 0.0) else { continue };
+        scratch.raw.clear();
+        limits::upright_ends(eq, m, u, &mut scratch.raw);
+        scratch.sort(av);
+        for k in 1..scratch.critical.len() {
+            let (a, b) = (scratch.critical[k - 1], scratch.critical[k]);
+            let poses = [m[0].place(u), m[1].place(0.5 * (a + b))];
+            if b - a >= LEAST && eq.margin(&poses, frame.size) >= -MARGIN {
+                out.push(Element { pair, branch: 0.0, u: [u, u], v: [a, b] });
+            }
+        }
+    }
+}

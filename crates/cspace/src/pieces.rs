@@ -1,0 +1,124 @@
+//! Which stretches of the curves bound free space.
+//!
+//! A stretch between two cuts is free along its whole length or nowhere, for free and blocked change only where
+//! another contact begins. So one test tells: the configuration in its middle, moved off its own contact by a hair along the
+//! gap's gradient, must not overlap anywhere. Free space narrower than twice that hair is taken as blocked: what is
+//! mapped is the closure of free space's interior, to `HAIR`.
+
+use crate::cross::Cuts;
+use crate::element::{Element, Frame};
+use crate::pairs::Catalogue;
+use crate::region::Regions;
+use crate::witness::Witnesses;
+
+/// How far off its contact a stretch is tested: a gap, relative to the size.
+pub(crate) const HAIR: f64 = 1e-9;
+/// Stretches shorter than this in both positions are dropped.
+const SHORT: f64 = 1e-10;
+
+/// A stretch of the boundary of free space, monotone in both positions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub element: u32,
+    pub u: [f64; 2],
+    pub v: [f64; 2],
+    /// Free space lies above (towards greater v); for an upright piece, towards greater u.
+    pub free_above: bool,
+}
+
+impl Piece {
+    pub fn is_upright(&self) -> bool {
+        self.u[0] == self.u[1]
+    }
+}
+
+/// What tells free from blocked.
+pub(crate) struct Judge<'a> {
+    pub frame: &'a Frame,
+    pub regions: &'a Regions,
+    pub witnesses: &'a Witnesses,
+    /// Greatest levers of both bodies, at least a bit of the size.
+    pub levers: [f64; 2],
+}
+
+impl Judge<'_> {
+    /// Do the bodies overlap at this configuration?
+    pub fn blocked(&self, u: f64, v: f64) -> bool {
+        let m = &self.frame.moving;
+        let poses = [m[0].place(u), m[1].place(v)];
+        self.witnesses.blocked(m, &poses, [0.0; 2]) || self.regions.overlap(&poses)
+    }
+
+    /// The side of an element on which it is free at a configuration on it; none if it is blocked.
+    fn free_side(&self, catalogue: &Catalogue, element: &Element, u: f64, v: f64) -> Option<bool> {
+        let eq = &catalogue.curves[element.pair as usize].eq;
+        let g = eq.value(&self.frame.moving, u, v);
+        let [l, k] = self.levers;
+        let steepness = (g.fu / l).powi(2) + (g.fv / k).powi(2);
+        let step = HAIR * self.frame.size / steepness;
+        if !step.is_finite() {
+            return None;
+        }
+        // No longer step than the element's own gap would allow at a dead point.
+        let most = HAIR.sqrt() * self.frame.size / steepness.sqrt();
+        let step = step.min(most);
+        let (du, dv) = (step * g.fu / (l * l), step * g.fv / (k * k));
+        let free = !self.blocked(u + du, v + dv);
+        free.then_some(if element.is_upright() { g.fu > 0.0 } else { g.fv > 0.0 })
+    }
+}
+
+/// All stretches that bound free space, by element and position, and how many were tested.
+pub(crate) fn pieces(catalogue: &Catalogue, cuts: &mut Cuts, judge: &Judge) -> (Vec<Piece>, usize) {
+    cuts.at.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let (mut found, mut tested, mut at) = (Vec::new(), 0, 0);
+    let mut stops: Vec<f64> = Vec::new();
+    for (k, element) in catalogue.elements.iter().enumerate() {
+        let start = at;
+        while at < cuts.at.len() && cuts.at[at].0 as usize == k {
+            at += 1;
+        }
+        if !cuts.met.get(k).copied().unwrap_or(false) {
+            continue;
+        }
+        let range = if element.is_upright() { element.v } else { element.u };
+        stops.clear();
+        stops.push(range[0]);
+        stops.extend(cuts.at[start..at].iter().map(|c| c.1.clamp(range[0], range[1])));
+        stops.push(range[1]);
+        stops.dedup_by(|b, a| *b - *a <= 0.1 * SHORT);
+        for w in stops.windows(2) {
+            let piece = stretch(catalogue, judge.frame, k as u32, [w[0], w[1]]);
+            let length = (piece.u[1] - piece.u[0]).abs().max((piece.v[1] - piece.v[0]).abs());
+            if length <= SHORT {
+                continue;
+            }
+            tested += 1;
+            let (u, v) = middle(catalogue, judge.frame, &piece);
+            if let Some(free_above) = judge.free_side(catalogue, element, u, v) {
+                found.push(Piece { free_above, ..piece });
+            }
+        }
+    }
+    (found, tested)
+}
+
+fn stretch(catalogue: &Catalogue, frame: &Frame, k: u32, [a, b]: [f64; 2]) -> Piece {
+    let element = &catalogue.elements[k as usize];
+    if element.is_upright() {
+        return Piece { element: k, u: element.u, v: [a, b], free_above: false };
+    }
+    let eq = &catalogue.curves[element.pair as usize].eq;
+    let v = |u: f64, end: usize| if u == element.u[end] { element.v[end] } else { element.v_at(eq, frame, u) };
+    Piece { element: k, u: [a, b], v: [v(a, 0), v(b, 1)], free_above: false }
+}
+
+/// The configuration half way along.
+fn middle(catalogue: &Catalogue, frame: &Frame, piece: &Piece) -> (f64, f64) {
+    let u = 0.5 * (piece.u[0] + piece.u[1]);
+    if piece.is_upright() {
+        return (u, 0.5 * (piece.v[0] + piece.v[1]));
+    }
+    let element = &catalogue.elements[piece.element as usize];
+    (u, element.v_at(&catalogue.curves[element.pair as usize].eq, frame, u))
+}

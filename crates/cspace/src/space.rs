@@ -1,0 +1,265 @@
+//! The configuration space of two bodies and two coordinates.
+
+use crate::bodies::{Contact, contact};
+use crate::cells::{Work, search};
+use crate::cross::Cuts;
+use crate::domain::Axis;
+use crate::element::Frame;
+use crate::error::SpaceError;
+use crate::locate::Locator;
+use crate::links::{Link, Parts, links, parts};
+use crate::moving::{Kind, Moving};
+use crate::options::SpaceOptions;
+use crate::pairs::{Catalogue, Part};
+use crate::pieces::{Judge, pieces};
+use crate::reduce::{Reduced, reduce};
+use crate::region::Regions;
+use crate::slabs::{Atlas, Slabs, build};
+use crate::symmetry;
+use crate::witness::Witnesses;
+use mainspring_mechanism::System;
+use std::f64::consts::TAU;
+
+/// Free and blocked space of two bodies over two coordinates, made once for a system at given parameters.
+///
+/// What it says is that of the closure of free space's interior: passages narrower than 1e-9 of the size count as
+/// blocked. Positions are joint coordinates q as the system counts them, of any turn; contacts are placed to about
+/// 1e-12 of the size.
+#[derive(Clone, Debug)]
+pub struct ConfigurationSpace {
+    pub(crate) names: [String; 2],
+    pub(crate) coordinates: [usize; 2],
+    /// The body that the first coordinate moves, and the other.
+    pub(crate) moved: [usize; 2],
+    /// `moved` is in the opposite order of the bodies asked for.
+    pub(crate) flipped: bool,
+    pub(crate) atlas: Atlas,
+    pub(crate) slabs: Slabs,
+    pub(crate) locator: Locator,
+    pub(crate) links: Vec<Link>,
+    pub(crate) cells: Parts,
+    pub(crate) regions: Regions,
+    pub(crate) witnesses: Witnesses,
+    pub(crate) levers: [f64; 2],
+    pub(crate) parts: [Vec<Part>; 2],
+    /// For each element's feature pair, the parts.
+    pub(crate) pairs: Vec<[u32; 2]>,
+    pub(crate) repeats: [u32; 2],
+    pub(crate) work: Work,
+}
+
+impl ConfigurationSpace {
+    /// The space of bodies `bodies` over coordinates `coordinates` (indices in the system).
+    ///
+    /// # Errors
+    /// See [`SpaceError`].
+    pub fn new(
+        system: &System,
+        bodies: [usize; 2],
+        coordinates: [usize; 2],
+        options: &SpaceOptions,
+    ) -> Result<Self, SpaceError> {
+        check(system, bodies, coordinates, options)?;
+        let reduced = reduce(system, bodies, coordinates, &options.held)?;
+        let contact = contact(system, &reduced);
+        let sections = [0, 1].map(|k| contact.sections(k, &reduced.moving[k]));
+        let parts = [0, 1].map(|k| contact.parts(k, &reduced.moving[k]));
+        let mut repeats = [1, 1];
+        for k in 0..2 {
+            if options.periodic && reduced.moving[k].turns() && options.windows[k].is_none() {
+                repeats[k] = symmetry::order(&sections[k], 1e-9 * system.size);
+            }
+        }
+        let mut axes = Vec::new();
+        for k in 0..2 {
+            let name = &system.coordinates[coordinates[k]].name;
+            axes.push(axis(k, &reduced, &parts, options.windows[k], repeats[k], name)?);
+        }
+        let frame = Frame { moving: reduced.moving, axes: [axes[0], axes[1]], size: system.size };
+        let regions = Regions::new(sections, &frame.moving, system.size);
+        Made { system, coordinates, bodies, reduced, contact, frame, regions, parts, repeats }.finish(options.budget)
+    }
+
+    /// Range of the two coordinates within which the map is stored (joint coordinates q).
+    pub fn domain(&self) -> [Axis; 2] {
+        [0, 1].map(|k| {
+            let (a, r) = (self.atlas.frame.axes[k], self.atlas.frame.moving[k].ratio);
+            Axis { start: a.start / r, length: a.length / r, ..a }
+        })
+    }
+
+    /// How often the space repeats within a whole turn of either coordinate: the rotational symmetry of the bodies.
+    pub fn repeats(&self) -> [u32; 2] {
+        self.repeats
+    }
+
+    /// Counts of work done to make the space.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Names of the two bodies, in the order asked for.
+    pub fn names(&self) -> &[String; 2] {
+        &self.names
+    }
+
+    /// Scaled positions within the domain, and the periods taken off.
+    pub(crate) fn scaled(&self, q: [f64; 2]) -> ([f64; 2], [i64; 2]) {
+        let at = [0, 1].map(|k| self.atlas.frame.axes[k].wrap(q[k] * self.atlas.frame.moving[k].ratio));
+        ([at[0].0, at[1].0], [at[0].1, at[1].1])
+    }
+
+    pub(crate) fn judge(&self) -> Judge<'_> {
+        Judge {
+            frame: &self.atlas.frame,
+            regions: &self.regions,
+            witnesses: &self.witnesses,
+            levers: self.levers,
+        }
+    }
+}
+
+fn check(
+    system: &System,
+    bodies: [usize; 2],
+    coordinates: [usize; 2],
+    options: &SpaceOptions,
+) -> Result<(), SpaceError> {
+    for (what, list, count) in
+        [("body", bodies, system.bodies.len()), ("coordinate", coordinates, system.coordinates.len())]
+    {
+        if let Some(&index) = list.iter().find(|&&i| i >= count) {
+            return Err(SpaceError::Absent { what, index });
+        }
+    }
+    if let Some(h) = options.held.iter().find(|h| h.0 >= system.coordinates.len()) {
+        return Err(SpaceError::Absent { what: "coordinate", index: h.0 });
+    }
+    if bodies[0] == bodies[1] {
+        return Err(SpaceError::Same { what: "body", name: system.bodies[bodies[0]].name.clone() });
+    }
+    if coordinates[0] == coordinates[1] {
+        let name = system.coordinates[coordinates[0]].name.clone();
+        return Err(SpaceError::Same { what: "coordinate", name });
+    }
+    for b in bodies {
+        let finite = |f: &mainspring_mechanism::Feature| {
+            f.center.x.is_finite() && f.center.y.is_finite() && f.radius.is_finite()
+        };
+        let held = options.held.iter().all(|h| h.1.is_finite());
+        if !held || !system.features[b].iter().all(finite) {
+            return Err(SpaceError::NotFinite { body: system.bodies[b].name.clone() });
+        }
+    }
+    Ok(())
+}
+
+/// The range of one coordinate in scaled positions.
+fn axis(
+    k: usize,
+    reduced: &Reduced,
+    parts: &[Vec<Part>; 2],
+    window: Option<(f64, f64)>,
+    repeats: u32,
+    name: &str,
+) -> Result<Axis, SpaceError> {
+    let moving = &reduced.moving[k];
+    let refuse = |reason| SpaceError::Window { coordinate: name.to_string(), reason };
+    let turns = moving.turns();
+    if let Some((low, high)) = window {
+        let (low, high) = (low * moving.ratio, high * moving.ratio);
+        if !(low.is_finite() && high.is_finite() && high - low > 1e-9) {
+            return Err(refuse("its end must lie above its start"));
+        }
+        if turns && high - low > TAU * (1.0 + 1e-12) {
+            return Err(refuse("wider than one turn; leave it out for the whole circle"));
+        }
+        return Ok(Axis { start: low, length: high - low, wraps: false, turns });
+    }
+    if turns {
+        let length = TAU / f64::from(repeats);
+        return Ok(Axis { start: -0.5 * length, length, wraps: true, turns });
+    }
+    let other = &reduced.moving[1 - k];
+    if moving.kind == Kind::Still || other.kind == Kind::Slide {
+        return Err(refuse("a window is needed: nothing else bounds the translation"));
+    }
+    let (low, high) = reach(moving, &parts[k], other, &parts[1 - k]);
+    Ok(Axis { start: low, length: high - low, wraps: false, turns })
+}
+
+/// Positions of a sliding body beyond which it cannot touch the other, and a little more.
+fn reach(moving: &Moving, own: &[Part], other: &Moving, others: &[Part]) -> (f64, f64) {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for p in own {
+        let along = moving.direction.dot(other.center - p.disc.0);
+        for q in others {
+            let reach = q.disc.0.norm() + q.disc.1 + p.disc.1;
+            low = low.min(along - reach);
+            high = high.max(along + reach);
+        }
+    }
+    if low > high {
+        return (-1.0, 1.0);
+    }
+    let more = 0.03 * (high - low);
+    (low - more, high + more)
+}
+
+/// Everything known before the search.
+struct Made<'a> {
+    system: &'a System,
+    coordinates: [usize; 2],
+    bodies: [usize; 2],
+    reduced: Reduced,
+    contact: Contact<'a>,
+    frame: Frame,
+    regions: Regions,
+    parts: [Vec<Part>; 2],
+    repeats: [u32; 2],
+}
+
+impl Made<'_> {
+    fn finish(self, budget: usize) -> Result<ConfigurationSpace, SpaceError> {
+        let size = self.frame.size;
+        let witnesses = Witnesses::new(&self.regions, size);
+        let levers = [0, 1].map(|k| self.parts[k].iter().map(|p| p.lever).fold(1e-3 * size.min(1.0), f64::max));
+        let kind = |i: usize, j: usize| self.contact.kind(i, j);
+        let mut catalogue = Catalogue::new(&self.frame, [&self.parts[0], &self.parts[1]], &kind);
+        let mut cuts = Cuts::default();
+        let mut work = Work::default();
+        if self.contact.exists() {
+            work = search(&mut catalogue, &witnesses, &mut cuts, budget)?;
+        }
+        let judge = Judge { frame: &self.frame, regions: &self.regions, witnesses: &witnesses, levers };
+        let (pieces, tested) = pieces(&catalogue, &mut cuts, &judge);
+        work.tested = tested;
+        let pairs = catalogue.curves.iter().map(|c| c.parts).collect();
+        let equations = catalogue.curves.iter().map(|c| c.eq).collect();
+        let elements = std::mem::take(&mut catalogue.elements);
+        let atlas = Atlas { frame: self.frame.clone(), pieces, elements, equations };
+        let ratios = self.frame.moving.map(|m| m.ratio);
+        let slabs = build(&atlas, &judge, |at| [at[0] / ratios[0], at[1] / ratios[1]])?;
+        let links = links(&slabs, &atlas);
+        let cells = parts(&slabs, &links);
+        let locator = Locator::new(&atlas, &slabs);
+        Ok(ConfigurationSpace {
+            names: self.bodies.map(|b| self.system.bodies[b].name.clone()),
+            coordinates: self.coordinates,
+            moved: self.reduced.bodies,
+            flipped: self.reduced.bodies != self.bodies,
+            atlas,
+            slabs,
+            locator,
+            links,
+            cells,
+            regions: self.regions,
+            witnesses,
+            levers,
+            parts: self.parts,
+            pairs,
+            repeats: self.repeats,
+            work,
+        })
+    }
+}

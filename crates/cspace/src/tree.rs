@@ -1,0 +1,59 @@
+//! A balanced tree of discs in a body's local coordinates.
+
+use mainspring_geometry::Vec2;
+
+/// A disc around one item or two smaller nodes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub center: Vec2,
+    pub radius: f64,
+    /// Item of a leaf, or the second child (the first follows its parent).
+    pub link: u32,
+    pub leaf: bool,
+}
+
+/// Nodes in depth-first order; empty without items.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Discs {
+    pub nodes: Vec<Node>,
+}
+
+impl Discs {
+    /// A tree over discs (centre, radius).
+    pub fn new(items: &[(Vec2, f64)]) -> Self {
+        let mut tree = Self::default();
+        let mut order: Vec<u32> = (0..items.len() as u32).collect();
+        if !order.is_empty() {
+            tree.build(items, &mut order);
+        }
+        tree
+    }
+
+    fn build(&mut self, items: &[(Vec2, f64)], chosen: &mut [u32]) {
+        let at = self.nodes.len();
+        if let [only] = *chosen {
+            let (center, radius) = items[only as usize];
+            self.nodes.push(Node { center, radius, link: only, leaf: true });
+            return;
+        }
+        let center = |i: u32| items[i as usize].0;
+        let mean = chosen.iter().fold(Vec2::default(), |s, &i| s + center(i)) * (1.0 / chosen.len() as f64);
+        let radius = chosen.iter().map(|&i| (center(i) - mean).norm() + items[i as usize].1).fold(0.0, f64::max);
+        self.nodes.push(Node { center: mean, radius, link: 0, leaf: false });
+        let spread = |key: fn(Vec2) -> f64| {
+            let keys = chosen.iter().map(|&i| key(center(i)));
+            keys.clone().fold(f64::MIN, f64::max) - keys.fold(f64::MAX, f64::min)
+        };
+        let key: fn(Vec2) -> f64 = if spread(|c| c.x) >= spread(|c| c.y) { |c| c.x } else { |c| c.y };
+        chosen.sort_by(|&i, &j| key(center(i)).total_cmp(&key(center(j))).then(i.cmp(&j)));
+        let (first, second) = chosen.split_at_mut(chosen.len() / 2);
+        self.build(items, first);
+        self.nodes[at].link = self.nodes.len() as u32;
+        self.build(items, second);
+    }
+
+    /// The children of an inner node.
+    pub fn children(&self, at: u32) -> [u32; 2] {
+        [at + 1, self.nodes[at as usize].link]
+    }
+}
