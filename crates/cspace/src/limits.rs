@@ -12,6 +12,7 @@ use crate::equation::Equation;
 use crate::moving::{Carried, Fixed, Moving, Roots};
 use crate::shape::Shape;
 use mainspring_geometry::Vec2;
+use std::f64::consts::PI;
 
 /// Positions u at which the equation's roots v merge, or v runs away.
 pub(crate) fn folds(eq: &Equation, moving: &[Moving; 2], out: &mut Vec<f64>) {
@@ -147,7 +148,9 @@ pub(crate) fn extremes(eq: &Equation, moving: &[Moving; 2], out: &mut Vec<f64>) 
     for v in steep {
         let roots = eq.solve_v(&swapped, v);
         if roots.reach {
-            out.push(roots.base);
+            // The two roots have met, on this side of a turn's centre or on the other.
+            let beyond = moving[0].turns() && roots.delta > 0.5 * PI;
+            out.push(if beyond { roots.base + PI } else { roots.base });
         }
     }
 }

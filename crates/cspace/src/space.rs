@@ -239,7 +239,9 @@ impl Made<'_> {
         let elements = std::mem::take(&mut catalogue.elements);
         let atlas = Atlas { frame: self.frame.clone(), pieces, elements, equations };
         let ratios = self.frame.moving.map(|m| m.ratio);
-        let slabs = build(&atlas, &judge, |at| [at[0] / ratios[0], at[1] / ratios[1]])?;
+        let slabs = build(&atlas, &judge, |at| [at[0] / ratios[0], at[1] / ratios[1]]);
+        if let Err(SpaceError::Degenerate { at }) = &slabs { let u = at[0]; debug_scan(&self.frame, [&self.parts[0], &self.parts[1]], &mut Catalogue::new(&self.frame, [&self.parts[0], &self.parts[1]], &kind), &judge, u); }
+        let slabs = slabs?;
         let links = links(&slabs, &atlas);
         let cells = parts(&slabs, &links);
         let locator = Locator::new(&atlas, &slabs);
@@ -261,5 +263,32 @@ impl Made<'_> {
             repeats: self.repeats,
             work,
         })
+    }
+}
+
+pub(crate) fn debug_scan(frame: &Frame, parts: [&[Part]; 2], catalogue: &mut Catalogue, judge: &Judge, u: f64) {
+    let ax = frame.axes[1];
+    let at = |k: usize| ax.start + ax.length * k as f64 / 20000.0;
+    for k in 0..20000 {
+        let (a, b) = (judge.blocked(u, at(k)), judge.blocked(u, at(k + 1)));
+        if a == b { continue; }
+        let v = 0.5 * (at(k) + at(k + 1));
+        eprintln!(" transition at v {v} blocked {a}->{b}");
+        let poses = [frame.moving[0].place(u), frame.moving[1].place(v)];
+        for i in 0..parts[0].len() { for j in 0..parts[1].len() {
+            if (catalogue.kind)(parts[0][i].id, parts[1][j].id).is_none() { continue; }
+            let eq = crate::equation::Equation::new([parts[0][i].shape, parts[1][j].shape]);
+            let g = eq.value_at(&frame.moving, &poses);
+            let m = eq.margin(&poses, frame.size);
+            if g.f.abs() < 1e-3 && m > -1e-3 {
+                let may = catalogue.may_touch(i as u32, j as u32, &poses, [1e-3, 1e-3]);
+                let mut s = crate::element::Scratch::default();
+                let mut out = vec![];
+                crate::element::elements(0, &eq, frame, &mut s, &mut out);
+                eprintln!("   {i} {j} f {} margin {m} may {may} shapes {:?} {:?}", g.f, parts[0][i].shape, parts[1][j].shape);
+                eprintln!("     known {:?}", catalogue.curves_of(i as u32, j as u32));
+                for e in out { eprintln!("     el {e:?}"); }
+            }
+        }}
     }
 }

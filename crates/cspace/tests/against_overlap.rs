@@ -77,3 +77,18 @@ fn random_pairs_agree() {
         compare(&system, &options, &mut random, 1500, &format!("pair {k}"));
     }
 }
+
+#[test]
+fn scan() {
+    let mut bad = 0;
+    for k in std::env::var("K").map_or(0..200, |k| { let k: usize = k.parse().unwrap(); k..k+1 }) {
+        let mut random = Random(1000 + k as u64);
+        let (system, options) = pair(&mut random, k % 4);
+        let t = std::time::Instant::now();
+        match ConfigurationSpace::new(&system, [0, 1], [0, 1], &options) {
+            Err(e) => { bad += 1; println!("{k}: {e}"); }
+            Ok(s) => println!("{k}: {:?} {:?}", s.work(), t.elapsed()),
+        }
+    }
+    println!("{bad} bad");
+}
