@@ -63,7 +63,8 @@ impl<'a> Contact<'a> {
     /// For each feature of body `k` whether it takes part in contact.
     fn usable(&self, k: usize) -> Vec<bool> {
         let x = Vec2::new(1.0, 0.0);
-        let round = probe(FeatureShape::Round { center: x, radius: 1.0, cone: mainspring_mechanism::Cone::Full });
+        let round =
+            probe(FeatureShape::Round { center: x, radius: 1.0, cone: mainspring_mechanism::Cone::Full });
         let edge = probe(FeatureShape::Edge { from: x, to: x, tangent: x, normal: x, length: 1.0 });
         let (n, m) = (self.features(k).len(), self.features(1 - k).len());
         let asks = |i: usize, j: usize| {
@@ -80,7 +81,8 @@ impl<'a> Contact<'a> {
             usable[id].then(|| {
                 let center = moving.local.apply(f.center);
                 let lever = moving.lever(center, f.radius);
-                Part { id, shape: Shape::new(f, &moving.local), disc: (center, f.radius), lever }
+                let neighbours = f.neighbours.clone();
+                Part { id, neighbours, shape: Shape::new(f, &moving.local), disc: (center, f.radius), lever }
             })
         };
         self.features(k).iter().enumerate().filter_map(of).collect()

@@ -135,7 +135,8 @@ impl Cuts {
         self.portions.clear();
         let ((ul, ur), (vl, vr)) = (cell.range(0), cell.range(1));
         for &(i, j) in front {
-            let parts = (catalogue.trees[0].nodes[i as usize].link, catalogue.trees[1].nodes[j as usize].link);
+            let parts =
+                (catalogue.trees[0].nodes[i as usize].link, catalogue.trees[1].nodes[j as usize].link);
             let Some(curves) = catalogue.curves_of(parts.0, parts.1) else { continue };
             let (start, end) = catalogue.curves[curves as usize].elements;
             for k in start..end {

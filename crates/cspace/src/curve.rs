@@ -29,6 +29,10 @@ impl ConfigurationSpace {
 }
 
 impl<'s> Curve<'s> {
+    pub(crate) fn space(&self) -> &'s ConfigurationSpace {
+        self.space
+    }
+
     pub(crate) fn piece(&self) -> &'s Piece {
         &self.space.atlas.pieces[self.id as usize]
     }

@@ -35,7 +35,11 @@ impl Axis {
         }
         let periods = ((u - self.start) / self.length).floor();
         let inside = u - periods * self.length;
-        if inside >= self.end() { (self.start, periods as i64 + 1) } else { (inside.max(self.start), periods as i64) }
+        if inside >= self.end() {
+            (self.start, periods as i64 + 1)
+        } else {
+            (inside.max(self.start), periods as i64)
+        }
     }
 
     /// A root of an equation moved by whole turns to lie nearest to `near`.

@@ -62,7 +62,13 @@ pub(crate) struct Scratch {
 }
 
 /// All elements of a feature pair within the domain, by u.
-pub(crate) fn elements(pair: u32, eq: &Equation, frame: &Frame, scratch: &mut Scratch, out: &mut Vec<Element>) {
+pub(crate) fn elements(
+    pair: u32,
+    eq: &Equation,
+    frame: &Frame,
+    scratch: &mut Scratch,
+    out: &mut Vec<Element>,
+) {
     if eq.is_upright(&frame.moving, 1e-10 * frame.size) {
         upright(pair, eq, frame, scratch, out);
         return;
@@ -93,7 +99,13 @@ pub(crate) fn elements(pair: u32, eq: &Equation, frame: &Frame, scratch: &mut Sc
 }
 
 fn branches(roots: &Roots) -> impl Iterator<Item = f64> + use<> {
-    let count = if !roots.reach { 0 } else if roots.single { 1 } else { 2 };
+    let count = if !roots.reach {
+        0
+    } else if roots.single {
+        1
+    } else {
+        2
+    };
     [1.0, -1.0].into_iter().take(count)
 }
 

@@ -130,10 +130,8 @@ impl Equation {
     }
 
     fn arcs_margin(&self, poses: &[Pose; 2]) -> f64 {
-        let (
-            Shape::Arc { center: a, directions: da, .. },
-            Shape::Arc { center: b, directions: db, .. },
-        ) = (&self.shapes[0], &self.shapes[1])
+        let (Shape::Arc { center: a, directions: da, .. }, Shape::Arc { center: b, directions: db, .. }) =
+            (&self.shapes[0], &self.shapes[1])
         else {
             return f64::NEG_INFINITY;
         };

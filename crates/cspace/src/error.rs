@@ -31,7 +31,9 @@ impl fmt::Display for SpaceError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Absent { what, index } => write!(f, "there is no {what} with index {index}"),
-            Self::Same { what, name } => write!(f, "two different ones are needed, not twice the {what} {name}"),
+            Self::Same { what, name } => {
+                write!(f, "two different ones are needed, not twice the {what} {name}")
+            }
             Self::OneSubsystem { bodies: [a, b] } => {
                 write!(f, "neither coordinate moves {a} against {b}: they belong to one subsystem")
             }

@@ -52,7 +52,13 @@ pub(crate) fn links(slabs: &Slabs, atlas: &Atlas) -> Vec<Link> {
     let n = slabs.count();
     let wraps = atlas.frame.axes[0].wraps;
     for s in 0..n {
-        let next = if s + 1 < n { s + 1 } else if wraps { 0 } else { break };
+        let next = if s + 1 < n {
+            s + 1
+        } else if wraps {
+            0
+        } else {
+            break;
+        };
         let around = i64::from(s + 1 == n);
         sides(slabs, atlas, s, slabs.u[s + 1], &mut left);
         sides(slabs, atlas, next, slabs.u[next], &mut right);
@@ -89,12 +95,8 @@ pub(crate) struct Parts {
 
 pub(crate) fn parts(slabs: &Slabs, links: &[Link]) -> Parts {
     let n = slabs.free.len();
-    let mut parts = Parts {
-        of: vec![NONE; n],
-        offset: vec![[0, 0]; n],
-        windings: vec![],
-        from: vec![vec![]; n],
-    };
+    let mut parts =
+        Parts { of: vec![NONE; n], offset: vec![[0, 0]; n], windings: vec![], from: vec![vec![]; n] };
     for (i, link) in links.iter().enumerate() {
         parts.from[link.from as usize].push((i as u32, true));
         parts.from[link.to as usize].push((i as u32, false));

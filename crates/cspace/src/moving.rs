@@ -89,7 +89,13 @@ impl Roots {
 
     pub fn each(&self) -> impl Iterator<Item = f64> + use<> {
         let roots = [self.root(1.0), self.root(-1.0)];
-        let count = if !self.reach { 0 } else if self.single { 1 } else { 2 };
+        let count = if !self.reach {
+            0
+        } else if self.single {
+            1
+        } else {
+            2
+        };
         roots.into_iter().take(count)
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::element::{Element, Frame, Scratch, elements};
 use crate::equation::Equation;
-use crate::moving::Carried;
 use crate::shape::{Shape, unrotate};
 use crate::tree::Discs;
 use mainspring_geometry::Vec2;
@@ -15,6 +14,8 @@ pub(crate) struct Part {
     /// Index among the body's features.
     pub id: usize,
     pub shape: Shape,
+    /// Neighbours in the outline, by their indices among the body's features.
+    pub neighbours: Vec<usize>,
     /// A disc around it in local coordinates.
     pub disc: (Vec2, f64),
     /// Greatest speed of its points per unit of the scaled position.
@@ -176,9 +177,4 @@ impl<'a> Catalogue<'a> {
         (ta >= 0.5 || da.margin(unrotate(&poses[0], out_a)) >= -ta)
             && (tb >= 0.5 || db.margin(unrotate(&poses[1], out_b)) >= -tb)
     }
-}
-
-/// How far a carried point or line of a part reaches.
-pub(crate) fn is_line(carried: &Carried) -> bool {
-    matches!(carried, Carried::Line { .. })
 }

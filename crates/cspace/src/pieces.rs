@@ -95,7 +95,6 @@ pub(crate) fn pieces(catalogue: &Catalogue, cuts: &mut Cuts, judge: &Judge) -> (
             }
             tested += 1;
             let (u, v) = middle(catalogue, judge.frame, &piece);
-            if std::env::var("DBG").is_ok() { let eq=&catalogue.curves[element.pair as usize].eq; eprintln!("PIECE pair {} u {:?} v {:?} side {:?} val {:?} w {} r {}", element.pair, piece.u, piece.v, judge.free_side(catalogue, element, u, v), eq.value(&judge.frame.moving,u,v), judge.witnesses.blocked(&judge.frame.moving, &[judge.frame.moving[0].place(u), judge.frame.moving[1].place(v)], [0.0;2]), 0); }
             if let Some(free_above) = judge.free_side(catalogue, element, u, v) {
                 found.push(Piece { free_above, ..piece });
             }
@@ -110,7 +109,8 @@ fn stretch(catalogue: &Catalogue, frame: &Frame, k: u32, [a, b]: [f64; 2]) -> Pi
         return Piece { element: k, u: element.u, v: [a, b], free_above: false };
     }
     let eq = &catalogue.curves[element.pair as usize].eq;
-    let v = |u: f64, end: usize| if u == element.u[end] { element.v[end] } else { element.v_at(eq, frame, u) };
+    let v =
+        |u: f64, end: usize| if u == element.u[end] { element.v[end] } else { element.v_at(eq, frame, u) };
     Piece { element: k, u: [a, b], v: [v(a, 0), v(b, 1)], free_above: false }
 }
 

@@ -49,7 +49,14 @@ impl Section {
             points.extend(point);
         }
         let discs: Vec<_> = spans.iter().map(Span::disc).collect();
-        Section { heights: (layer.bottom, layer.top), tree: Discs::new(&discs), spans, features, convex, points }
+        Section {
+            heights: (layer.bottom, layer.top),
+            tree: Discs::new(&discs),
+            spans,
+            features,
+            convex,
+            points,
+        }
     }
 
     /// Is the point inside? Counts crossings of a ray towards +x.
@@ -137,13 +144,20 @@ fn stretches(span: &Span, a: Vec2, b: Vec2) -> impl Iterator<Item = (Vec2, Vec2,
     if let Span::Arc { center, radius, sector } = *span {
         let (top, bottom) = (center + Vec2::new(0.0, radius), center - Vec2::new(0.0, radius));
         let whole = sector.start == sector.end;
-        let (mut at, mut right) = (a, if sector.start.x != 0.0 { sector.start.x > 0.0 } else { sector.start.y < 0.0 });
+        let (mut at, mut right) =
+            (a, if sector.start.x != 0.0 { sector.start.x > 0.0 } else { sector.start.y < 0.0 });
         let end_right = if sector.end.x != 0.0 { sector.end.x > 0.0 } else { sector.end.y > 0.0 };
         for slot in &mut found {
             // Does the arc end on this half, ahead of here?
             let ahead = if right { b.y >= at.y } else { b.y <= at.y };
             let last = end_right == right && ahead && !(whole && at == a);
-            let stop = if last { b } else if right { top } else { bottom };
+            let stop = if last {
+                b
+            } else if right {
+                top
+            } else {
+                bottom
+            };
             *slot = Some((at, stop, right));
             if last {
                 break;
@@ -220,7 +234,13 @@ fn meet(a: &Section, b: &Section, rel: &Pose, rounding: f64, ignored: &Ignored) 
 }
 
 /// Visits pairs of spans that may be nearer than a reach; `visit` gets their distance and returns the new reach.
-fn search(a: &Section, b: &Section, rel: &Pose, ignored: &Ignored, mut visit: impl FnMut(f64, (usize, usize)) -> f64) {
+fn search(
+    a: &Section,
+    b: &Section,
+    rel: &Pose,
+    ignored: &Ignored,
+    mut visit: impl FnMut(f64, (usize, usize)) -> f64,
+) {
     let (ta, tb) = (&a.tree.nodes, &b.tree.nodes);
     if ta.is_empty() || tb.is_empty() {
         return;

@@ -37,9 +37,19 @@ impl Directions {
 /// A feature's shape in local coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Shape {
-    Edge { from: Vec2, tangent: Vec2, normal: Vec2, length: f64 },
+    Edge {
+        from: Vec2,
+        tangent: Vec2,
+        normal: Vec2,
+        length: f64,
+    },
     /// Convex arc or corner; concave if `hollow`.
-    Arc { center: Vec2, radius: f64, directions: Directions, hollow: bool },
+    Arc {
+        center: Vec2,
+        radius: f64,
+        directions: Directions,
+        hollow: bool,
+    },
 }
 
 impl Shape {

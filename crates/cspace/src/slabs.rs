@@ -144,7 +144,11 @@ fn borders(atlas: &Atlas) -> Vec<f64> {
 }
 
 /// Builds the partition.
-pub(crate) fn build(atlas: &Atlas, judge: &Judge, order: impl Fn([f64; 2]) -> [f64; 2]) -> Result<Slabs, SpaceError> {
+pub(crate) fn build(
+    atlas: &Atlas,
+    judge: &Judge,
+    order: impl Fn([f64; 2]) -> [f64; 2],
+) -> Result<Slabs, SpaceError> {
     let u = borders(atlas);
     let near = 2.0 * BORDER * atlas.frame.axes[0].length.max(1.0);
     let index = |x: f64| {
@@ -227,26 +231,15 @@ fn label(
             None if !(thick && wide) && sides.0.is_some() => false,
             Some(free) => {
                 if judge.blocked(middle, v) == free {
-                    dump(atlas, slabs, s, k, free);
                     return Err(SpaceError::Degenerate { at: order([middle, v]) });
                 }
                 checked.insert(key, free);
                 free
             }
-            None if sides.0.is_some() && {dump(atlas, slabs, s, k, false); true} => return Err(SpaceError::Degenerate { at: order([middle, v]) }),
+            None if sides.0.is_some() => return Err(SpaceError::Degenerate { at: order([middle, v]) }),
             None => !judge.blocked(middle, v),
         };
         slabs.free.push(free);
     }
     Ok(())
-}
-
-fn dump(atlas: &Atlas, slabs: &Slabs, s: usize, k: usize, free: bool) {
-    let (a, b) = (slabs.u[s], slabs.u[s + 1]);
-    eprintln!("slab {a}..{b} of {} cell {k} said {free}", slabs.u.len());
-    for &p in slabs.stack(s) {
-        let q = &atlas.pieces[p as usize];
-        let e = &atlas.elements[q.element as usize];
-        eprintln!("  {p} pair {} br {} u {:?} v {:?} above {} elem {:?}", e.pair, e.branch, q.u, q.v, q.free_above, e.u);
-    }
 }

@@ -6,8 +6,8 @@ use crate::cross::Cuts;
 use crate::domain::Axis;
 use crate::element::Frame;
 use crate::error::SpaceError;
-use crate::locate::Locator;
 use crate::links::{Link, Parts, links, parts};
+use crate::locate::Locator;
 use crate::moving::{Kind, Moving};
 use crate::options::SpaceOptions;
 use crate::pairs::{Catalogue, Part};
@@ -19,6 +19,7 @@ use crate::symmetry;
 use crate::witness::Witnesses;
 use mainspring_mechanism::System;
 use std::f64::consts::TAU;
+use std::sync::{Arc, OnceLock};
 
 /// Free and blocked space of two bodies over two coordinates, made once for a system at given parameters.
 ///
@@ -41,6 +42,8 @@ pub struct ConfigurationSpace {
     pub(crate) regions: Regions,
     pub(crate) witnesses: Witnesses,
     pub(crate) levers: [f64; 2],
+    /// The same map with its coordinates exchanged, made when first needed.
+    pub(crate) transposed: OnceLock<Arc<Result<ConfigurationSpace, SpaceError>>>,
     pub(crate) parts: [Vec<Part>; 2],
     /// For each element's feature pair, the parts.
     pub(crate) pairs: Vec<[u32; 2]>,
@@ -77,7 +80,8 @@ impl ConfigurationSpace {
         }
         let frame = Frame { moving: reduced.moving, axes: [axes[0], axes[1]], size: system.size };
         let regions = Regions::new(sections, &frame.moving, system.size);
-        Made { system, coordinates, bodies, reduced, contact, frame, regions, parts, repeats }.finish(options.budget)
+        Made { system, coordinates, bodies, reduced, contact, frame, regions, parts, repeats }
+            .finish(options.budget)
     }
 
     /// Range of the two coordinates within which the map is stored (joint coordinates q).
@@ -107,15 +111,6 @@ impl ConfigurationSpace {
     pub(crate) fn scaled(&self, q: [f64; 2]) -> ([f64; 2], [i64; 2]) {
         let at = [0, 1].map(|k| self.atlas.frame.axes[k].wrap(q[k] * self.atlas.frame.moving[k].ratio));
         ([at[0].0, at[1].0], [at[0].1, at[1].1])
-    }
-
-    pub(crate) fn judge(&self) -> Judge<'_> {
-        Judge {
-            frame: &self.atlas.frame,
-            regions: &self.regions,
-            witnesses: &self.witnesses,
-            levers: self.levers,
-        }
     }
 }
 
@@ -223,7 +218,8 @@ impl Made<'_> {
     fn finish(self, budget: usize) -> Result<ConfigurationSpace, SpaceError> {
         let size = self.frame.size;
         let witnesses = Witnesses::new(&self.regions, size);
-        let levers = [0, 1].map(|k| self.parts[k].iter().map(|p| p.lever).fold(1e-3 * size.min(1.0), f64::max));
+        let levers =
+            [0, 1].map(|k| self.parts[k].iter().map(|p| p.lever).fold(1e-3 * size.min(1.0), f64::max));
         let kind = |i: usize, j: usize| self.contact.kind(i, j);
         let mut catalogue = Catalogue::new(&self.frame, [&self.parts[0], &self.parts[1]], &kind);
         let mut cuts = Cuts::default();
@@ -239,9 +235,7 @@ impl Made<'_> {
         let elements = std::mem::take(&mut catalogue.elements);
         let atlas = Atlas { frame: self.frame.clone(), pieces, elements, equations };
         let ratios = self.frame.moving.map(|m| m.ratio);
-        let slabs = build(&atlas, &judge, |at| [at[0] / ratios[0], at[1] / ratios[1]]);
-        if let Err(SpaceError::Degenerate { at }) = &slabs { let u = at[0]; debug_scan(&self.frame, [&self.parts[0], &self.parts[1]], &mut Catalogue::new(&self.frame, [&self.parts[0], &self.parts[1]], &kind), &judge, u); }
-        let slabs = slabs?;
+        let slabs = build(&atlas, &judge, |at| [at[0] / ratios[0], at[1] / ratios[1]])?;
         let links = links(&slabs, &atlas);
         let cells = parts(&slabs, &links);
         let locator = Locator::new(&atlas, &slabs);
@@ -258,37 +252,11 @@ impl Made<'_> {
             regions: self.regions,
             witnesses,
             levers,
+            transposed: OnceLock::new(),
             parts: self.parts,
             pairs,
             repeats: self.repeats,
             work,
         })
-    }
-}
-
-pub(crate) fn debug_scan(frame: &Frame, parts: [&[Part]; 2], catalogue: &mut Catalogue, judge: &Judge, u: f64) {
-    let ax = frame.axes[1];
-    let at = |k: usize| ax.start + ax.length * k as f64 / 20000.0;
-    for k in 0..20000 {
-        let (a, b) = (judge.blocked(u, at(k)), judge.blocked(u, at(k + 1)));
-        if a == b { continue; }
-        let v = 0.5 * (at(k) + at(k + 1));
-        eprintln!(" transition at v {v} blocked {a}->{b}");
-        let poses = [frame.moving[0].place(u), frame.moving[1].place(v)];
-        for i in 0..parts[0].len() { for j in 0..parts[1].len() {
-            if (catalogue.kind)(parts[0][i].id, parts[1][j].id).is_none() { continue; }
-            let eq = crate::equation::Equation::new([parts[0][i].shape, parts[1][j].shape]);
-            let g = eq.value_at(&frame.moving, &poses);
-            let m = eq.margin(&poses, frame.size);
-            if g.f.abs() < 1e-3 && m > -1e-3 {
-                let may = catalogue.may_touch(i as u32, j as u32, &poses, [1e-3, 1e-3]);
-                let mut s = crate::element::Scratch::default();
-                let mut out = vec![];
-                crate::element::elements(0, &eq, frame, &mut s, &mut out);
-                eprintln!("   {i} {j} f {} margin {m} may {may} shapes {:?} {:?}", g.f, parts[0][i].shape, parts[1][j].shape);
-                eprintln!("     known {:?}", catalogue.curves_of(i as u32, j as u32));
-                for e in out { eprintln!("     el {e:?}"); }
-            }
-        }}
     }
 }

@@ -38,7 +38,8 @@ impl Discs {
         }
         let center = |i: u32| items[i as usize].0;
         let mean = chosen.iter().fold(Vec2::default(), |s, &i| s + center(i)) * (1.0 / chosen.len() as f64);
-        let radius = chosen.iter().map(|&i| (center(i) - mean).norm() + items[i as usize].1).fold(0.0, f64::max);
+        let radius =
+            chosen.iter().map(|&i| (center(i) - mean).norm() + items[i as usize].1).fold(0.0, f64::max);
         self.nodes.push(Node { center: mean, radius, link: 0, leaf: false });
         let spread = |key: fn(Vec2) -> f64| {
             let keys = chosen.iter().map(|&i| key(center(i)));

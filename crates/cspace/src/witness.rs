@@ -33,7 +33,9 @@ impl Inside {
         let mut discs = Vec::new();
         for (span, convex) in section.spans.iter().zip(section.convex()) {
             let count = 1 + (SAMPLES * span.length() / total).min(SAMPLES) as usize;
-            discs.extend(span.samples(count, *convex).into_iter().filter_map(|(p, n)| grow(section, p, n, size)));
+            discs.extend(
+                span.samples(count, *convex).into_iter().filter_map(|(p, n)| grow(section, p, n, size)),
+            );
         }
         let centers: Vec<_> = discs.iter().map(|d| (d.0, 0.0)).collect();
         let tree = Discs::new(&centers);
@@ -78,12 +80,19 @@ impl Witnesses {
     /// Is every configuration within half widths `half` of these poses surely blocked? A disc's centre moves by at most
     /// its lever times the half width. False means nothing.
     pub fn blocked(&self, moving: &[Moving; 2], poses: &[Pose; 2], half: [f64; 2]) -> bool {
-        self.facing.iter().any(|&(i, j)| {
-            self.pair_blocked(&self.inside[0][i], &self.inside[1][j], moving, poses, half)
-        })
+        self.facing
+            .iter()
+            .any(|&(i, j)| self.pair_blocked(&self.inside[0][i], &self.inside[1][j], moving, poses, half))
     }
 
-    fn pair_blocked(&self, a: &Inside, b: &Inside, moving: &[Moving; 2], poses: &[Pose; 2], half: [f64; 2]) -> bool {
+    fn pair_blocked(
+        &self,
+        a: &Inside,
+        b: &Inside,
+        moving: &[Moving; 2],
+        poses: &[Pose; 2],
+        half: [f64; 2],
+    ) -> bool {
         if a.discs.is_empty() || b.discs.is_empty() {
             return false;
         }
@@ -91,7 +100,8 @@ impl Witnesses {
         let bound = |i: u32, j: u32| {
             let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
             let apart = (poses[0].apply(m.center) - poses[1].apply(n.center)).norm();
-            let motion = half[0] * m1.lever(m.center, -m.radius).max(0.0) + half[1] * m2.lever(n.center, -n.radius).max(0.0);
+            let motion = half[0] * m1.lever(m.center, -m.radius).max(0.0)
+                + half[1] * m2.lever(n.center, -n.radius).max(0.0);
             apart - m.radius - n.radius - a.greatest[i as usize] - b.greatest[j as usize] + motion
         };
         let mut pending = vec![(bound(0, 0), 0u32, 0u32)];
@@ -116,5 +126,13 @@ impl Witnesses {
             pending.extend(next);
         }
         false
+    }
+}
+
+impl Witnesses {
+    /// With the bodies exchanged.
+    pub fn transposed(&self) -> Self {
+        let [a, b] = self.inside.clone();
+        Witnesses { inside: [b, a], facing: self.facing.iter().map(|&(i, j)| (j, i)).collect() }
     }
 }

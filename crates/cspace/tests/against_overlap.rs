@@ -19,7 +19,8 @@ fn wrong(bodies: (&Body, &Body), q: [f64; 2], free: bool, step: [f64; 2]) -> boo
 }
 
 fn compare(system: &System, options: &SpaceOptions, random: &mut Random, count: usize, what: &str) -> usize {
-    let space = ConfigurationSpace::new(system, [0, 1], [0, 1], options).unwrap_or_else(|e| panic!("{what}: {e}"));
+    let space =
+        ConfigurationSpace::new(system, [0, 1], [0, 1], options).unwrap_or_else(|e| panic!("{what}: {e}"));
     let [x, y] = space.domain();
     let bodies = (&system.bodies[0], &system.bodies[1]);
     let curves = space.curves();
@@ -41,7 +42,11 @@ fn compare(system: &System, options: &SpaceOptions, random: &mut Random, count: 
         }
         let says = space.is_free(q);
         free += usize::from(says);
-        assert!(!wrong(bodies, q, says, step), "{what}: {q:?} called {}", if says { "free" } else { "blocked" });
+        assert!(
+            !wrong(bodies, q, says, step),
+            "{what}: {q:?} called {}",
+            if says { "free" } else { "blocked" }
+        );
     }
     free
 }
@@ -76,19 +81,4 @@ fn random_pairs_agree() {
         let (system, options) = pair(&mut random, k % 4);
         compare(&system, &options, &mut random, 1500, &format!("pair {k}"));
     }
-}
-
-#[test]
-fn scan() {
-    let mut bad = 0;
-    for k in std::env::var("K").map_or(0..200, |k| { let k: usize = k.parse().unwrap(); k..k+1 }) {
-        let mut random = Random(1000 + k as u64);
-        let (system, options) = pair(&mut random, k % 4);
-        let t = std::time::Instant::now();
-        match ConfigurationSpace::new(&system, [0, 1], [0, 1], &options) {
-            Err(e) => { bad += 1; println!("{k}: {e}"); }
-            Ok(s) => println!("{k}: {:?} {:?}", s.work(), t.elapsed()),
-        }
-    }
-    println!("{bad} bad");
 }

@@ -69,11 +69,13 @@ pub fn polygon(points: &[(f64, f64)]) -> Loop {
 /// A hole is a loop run the other way.
 pub fn reversed(corners: &[Corner]) -> Vec<Corner> {
     let n = corners.len();
-    (0..n).map(|i| {
-        let here = corners[(n - i) % n];
-        let before = corners[(2 * n - i - 1) % n];
-        (here.0, here.1, -before.2)
-    }).collect()
+    (0..n)
+        .map(|i| {
+            let here = corners[(n - i) % n];
+            let before = corners[(2 * n - i - 1) % n];
+            (here.0, here.1, -before.2)
+        })
+        .collect()
 }
 
 pub fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> Loop {
@@ -139,7 +141,9 @@ pub fn star(random: &mut Random, center: (f64, f64), inner: f64, outer: f64, n: 
             let bulge = random.next(-0.9, 1.3);
             let old = corners[i].2;
             corners[i].2 = bulge;
-            if !oracle::is_simple(&path(&corners, 0)) {
+            let boundary = path(&corners, 0);
+            let area: f64 = boundary.edges.iter().map(|e| e.segment.area_about(p(0.0, 0.0))).sum();
+            if area < 0.05 || !oracle::is_simple(&boundary) {
                 corners[i].2 = old;
             }
         }

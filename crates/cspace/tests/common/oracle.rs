@@ -153,9 +153,7 @@ pub fn is_simple(boundary: &Loop) -> bool {
     for i in 0..n {
         for j in i + 1..n {
             let adjacent = j == i + 1 || (i == 0 && j == n - 1);
-            let shared = |p: Vec2| {
-                adjacent && [all[i].a, all[i].b].iter().any(|e| (*e - p).norm() < 1e-6)
-            };
+            let shared = |p: Vec2| adjacent && [all[i].a, all[i].b].iter().any(|e| (*e - p).norm() < 1e-6);
             let crossing = carriers_meet(&all[i], &all[j])
                 .into_iter()
                 .flatten()
