@@ -21,7 +21,7 @@ pub(crate) struct Section {
     /// Material inside the circle (arcs), by span.
     convex: Vec<bool>,
     tree: Discs,
-    /// A point of each loop that takes part in contact.
+    /// Three points of each loop that takes part in contact.
     points: Vec<Vec2>,
 }
 
@@ -37,7 +37,7 @@ impl Section {
                 let span = Span::new(&edge.segment, local);
                 let feature = feature_of(i, j);
                 if feature != usize::MAX {
-                    point.get_or_insert(span.ends()[0]);
+                    point.get_or_insert_with(|| [span.ends()[0], span.samples(3, true)[0].0, span.samples(3, true)[2].0]);
                 }
                 convex.push(!matches!(
                     edge.segment,
@@ -46,7 +46,7 @@ impl Section {
                 spans.push(span);
                 features.push(feature);
             }
-            points.extend(point);
+            points.extend(point.into_iter().flatten());
         }
         let discs: Vec<_> = spans.iter().map(Span::disc).collect();
         Section {
@@ -109,6 +109,16 @@ impl Section {
             pending.extend(next);
         }
         best
+    }
+}
+
+impl Section {
+    /// Is a loop inside the other section, which it does not meet? Where spans touch for ever, points of theirs on the
+    /// other's boundary do not tell; any other point does.
+    fn reaches_into(&self, other: &Section, rel: &Pose, ignored: &Ignored, rounding: f64) -> bool {
+        let strict = |p: Vec2| ignored.is_empty() || other.nearest_to(p).1 > 1e3 * rounding;
+        let step = if ignored.is_empty() { 3 } else { 1 };
+        self.points.iter().step_by(step).map(|p| rel.apply(*p)).any(|p| other.contains(p) && strict(p))
     }
 }
 
@@ -200,8 +210,8 @@ impl Regions {
         self.facing.iter().any(|(i, j, ignored)| {
             let (a, b) = (&self.sections[0][*i], &self.sections[1][*j]);
             meet(a, b, &rel, self.rounding, ignored)
-                || a.points.iter().any(|p| b.contains(rel.apply(*p)))
-                || b.points.iter().any(|p| a.contains(back.apply(*p)))
+                || a.reaches_into(b, &rel, ignored, self.rounding)
+                || b.reaches_into(a, &back, ignored, self.rounding)
         })
     }
 

@@ -85,22 +85,24 @@ fn a_gate_pinches() {
     assert_ne!(shut.component_of([0.1, 0.0]), shut.component_of([3.9, 0.0]));
 }
 
-/// A wheel with `n` pins and a bar that must swing out of the way.
+/// Two wheels with `n` and `m` teeth.
 fn gears(n: usize, m: usize) -> System {
+    // Slender teeth: in each pitch of 2π one of height 2.3, so that there is always one in a gap of the other's.
     let teeth = |n: usize, x: f64, phase: f64| {
-        let at = |i: usize, r: f64| {
-            let a = (i as f64 + phase) * TAU / (2 * n) as f64;
-            (x + r * a.cos(), r * a.sin())
-        };
         let r = n as f64;
-        let points: Vec<_> = (0..2 * n).map(|i| at(i, if i % 2 == 0 { r + 0.5 } else { r - 0.7 })).collect();
+        let at = |i: usize, (off, height): (f64, f64)| {
+            let a = (i as f64 + phase + off) * TAU / r;
+            (x + (r + height) * a.cos(), (r + height) * a.sin())
+        };
+        let profile = [(-0.2, -1.3), (-0.03, 1.0), (0.03, 1.0), (0.2, -1.3)];
+        let points: Vec<_> = (0..n).flat_map(|i| profile.map(|c| at(i, c))).collect();
         polygon(&points)
     };
     let d = (n + m) as f64;
     system(
         vec![
             body("a", vec![turn(0, 0.0, 0.0)], vec![teeth(n, 0.0, 0.0)]),
-            body("b", vec![turn(1, d, 0.0)], vec![teeth(m, d, 1.0)]),
+            body("b", vec![turn(1, d, 0.0)], vec![teeth(m, d, 0.5)]),
         ],
         2.0 * d,
     )
