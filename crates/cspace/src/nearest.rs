@@ -17,7 +17,7 @@ pub struct Gap {
 
 impl ConfigurationSpace {
     /// The gap at a configuration. None outside a window, where the bodies have no features in common layers, and
-    /// where a blocked configuration has no contact curve beside it in either direction.
+    /// where a blocked configuration has no contact curve beside it whose features overlap.
     pub fn gap(&self, q: [f64; 2]) -> Option<Gap> {
         let (at, _) = self.scaled(q);
         let cell = self.cell_at(at)?;
@@ -70,11 +70,15 @@ impl ConfigurationSpace {
         if let Ok(across) = self.transposed() {
             near.extend(across.beside([at[1], at[0]], self.levers[0]));
         }
-        let (_, piece) = near.into_iter().min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-        let element = &self.atlas.elements[self.atlas.pieces[piece as usize].element as usize];
-        let [i, j] = self.pairs[element.pair as usize];
-        let features = [self.parts[0][i as usize].id, self.parts[1][j as usize].id];
-        Some(Gap { gap: self.true_gap(self.atlas.equation(piece), poses), features })
+        let of = |(off, piece): (f64, u32)| {
+            let element = &self.atlas.elements[self.atlas.pieces[piece as usize].element as usize];
+            let [i, j] = self.pairs[element.pair as usize];
+            let features = [self.parts[0][i as usize].id, self.parts[1][j as usize].id];
+            (off, piece, Gap { gap: self.true_gap(self.atlas.equation(piece), poses), features })
+        };
+        // A curve far off may belong to features that are apart here.
+        let overlapping = near.into_iter().map(of).filter(|(.., g)| g.gap <= 1e-9 * self.atlas.frame.size);
+        overlapping.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|(.., g)| g)
     }
 
     /// Pieces below and above a configuration with their distance along v times the lever.

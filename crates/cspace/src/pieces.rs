@@ -123,3 +123,39 @@ fn middle(catalogue: &Catalogue, frame: &Frame, piece: &Piece) -> (f64, f64) {
     let element = &catalogue.elements[piece.element as usize];
     (u, element.v_at(&catalogue.curves[element.pair as usize].eq, frame, u))
 }
+
+/// Ends of pieces with u within `WELD_U` and v within `WELD_V` are one vertex.
+const WELD_U: f64 = 1e-9;
+const WELD_V: f64 = 1e-7;
+
+/// Gives ends that meet one and the same v. Near a fold v has only half the digits that u has; of the curves that meet
+/// the flattest knows it best.
+pub(crate) fn weld(catalogue: &Catalogue, frame: &Frame, pieces: &mut [Piece]) {
+    let mut ends: Vec<(f64, f64, f64, u32, usize)> = Vec::new();
+    for (i, p) in pieces.iter().enumerate() {
+        let element = &catalogue.elements[p.element as usize];
+        let eq = &catalogue.curves[element.pair as usize].eq;
+        for end in 0..2 {
+            let g = eq.value(&frame.moving, p.u[end], p.v[end]);
+            let steepness = if p.is_upright() { f64::INFINITY } else { (g.fu / g.fv).abs() };
+            ends.push((p.u[end], p.v[end], steepness, i as u32, end));
+        }
+    }
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.3.cmp(&b.3)));
+    let mut done = vec![false; ends.len()];
+    for i in 0..ends.len() {
+        if done[i] {
+            continue;
+        }
+        let near = |e: &(f64, f64, f64, u32, usize)| e.0 - ends[i].0 <= WELD_U;
+        let group: Vec<usize> = (i..ends.len())
+            .take_while(|&k| near(&ends[k]))
+            .filter(|&k| !done[k] && (ends[k].1 - ends[i].1).abs() <= WELD_V)
+            .collect();
+        let flattest = group.iter().copied().min_by(|&a, &b| ends[a].2.total_cmp(&ends[b].2)).unwrap_or(i);
+        for &k in &group {
+            done[k] = true;
+            pieces[ends[k].3 as usize].v[ends[k].4] = ends[flattest].1;
+        }
+    }
+}

@@ -11,7 +11,7 @@ use crate::locate::Locator;
 use crate::moving::{Kind, Moving};
 use crate::options::SpaceOptions;
 use crate::pairs::{Catalogue, Part};
-use crate::pieces::{Judge, pieces};
+use crate::pieces::{Judge, pieces, weld};
 use crate::reduce::{Reduced, reduce};
 use crate::region::Regions;
 use crate::slabs::{Atlas, Slabs, build};
@@ -228,7 +228,8 @@ impl Made<'_> {
             work = search(&mut catalogue, &witnesses, &mut cuts, budget)?;
         }
         let judge = Judge { frame: &self.frame, regions: &self.regions, witnesses: &witnesses, levers };
-        let (pieces, tested) = pieces(&catalogue, &mut cuts, &judge);
+        let (mut pieces, tested) = pieces(&catalogue, &mut cuts, &judge);
+        weld(&catalogue, &self.frame, &mut pieces);
         work.tested = tested;
         let pairs = catalogue.curves.iter().map(|c| c.parts).collect();
         let equations = catalogue.curves.iter().map(|c| c.eq).collect();
