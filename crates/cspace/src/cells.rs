@@ -12,7 +12,7 @@ use crate::witness::Witnesses;
 use mainspring_mechanism::Pose;
 
 /// Feature pairs at which a box is no longer halved.
-const FEW: usize = 6;
+const FEW: usize = 20;
 /// A box is not halved when its motion is below this part of the size.
 const SMALL: f64 = 1e-3;
 

@@ -4,6 +4,7 @@ use crate::domain::Axis;
 use crate::equation::Equation;
 use crate::limits;
 use crate::moving::{Moving, Roots};
+use std::f64::consts::PI;
 
 /// Least width of an element (scaled position): narrower ones lie within rounding of a critical position.
 const LEAST: f64 = 1e-11;
@@ -59,6 +60,7 @@ impl Element {
 pub(crate) struct Scratch {
     raw: Vec<f64>,
     critical: Vec<f64>,
+    folds: Vec<f64>,
 }
 
 /// All elements of a feature pair within the domain, by u.
@@ -76,6 +78,8 @@ pub(crate) fn elements(
     let (m, [au, av]) = (&frame.moving, &frame.axes);
     scratch.raw.clear();
     limits::folds(eq, m, &mut scratch.raw);
+    scratch.folds.clear();
+    scratch.folds.extend(scratch.raw.iter().filter_map(|&u| au.place(u, 0.0)));
     limits::ends(eq, m, &mut scratch.raw);
     limits::level(eq, m, av.start, &mut scratch.raw);
     limits::level(eq, m, av.end(), &mut scratch.raw);
@@ -92,7 +96,7 @@ pub(crate) fn elements(
             let Some(v) = av.place(roots.root(branch), 0.0) else { continue };
             let poses = [m[0].place(middle), m[1].place(v)];
             if eq.margin(&poses, frame.size) >= -MARGIN {
-                graph(pair, eq, frame, (branch, a, b), out, 4);
+                graph(&Graph { pair, eq, frame, branch, folds: &scratch.folds }, a, b, out, 4);
             }
         }
     }
@@ -121,30 +125,43 @@ impl Scratch {
     }
 }
 
-/// Adds one stretch; wide ones in halves, so that which turn v belongs to is never in doubt.
-fn graph(
+/// The curve of which stretches are made.
+struct Graph<'a> {
     pair: u32,
-    eq: &Equation,
-    frame: &Frame,
-    (branch, a, b): (f64, f64, f64),
-    out: &mut Vec<Element>,
-    halvings: u32,
-) {
-    let axis = &frame.axes[1];
+    eq: &'a Equation,
+    frame: &'a Frame,
+    branch: f64,
+    folds: &'a [f64],
+}
+
+impl Graph<'_> {
+    /// v at an end. At a fold the two roots are one; found as two they would have half the digits.
+    fn end(&self, u: f64, within: f64) -> Option<f64> {
+        let axis = &self.frame.axes[1];
+        let near = axis.place(self.eq.solve_v(&self.frame.moving, within).root(self.branch), 1e-9)?;
+        let roots = self.eq.solve_v(&self.frame.moving, u);
+        let at_fold = !roots.single && self.folds.iter().any(|f| (f - u).abs() <= LEAST);
+        let beyond = axis.turns && roots.delta > 0.5 * PI;
+        let v = match (at_fold, beyond) {
+            (true, false) => roots.base,
+            (true, true) => roots.base + PI,
+            _ => roots.root(self.branch),
+        };
+        Some(axis.nearest(v, near).clamp(axis.start, axis.end()))
+    }
+}
+
+/// Adds one stretch; wide ones in halves, so that which turn v belongs to is never in doubt.
+fn graph(g: &Graph, a: f64, b: f64, out: &mut Vec<Element>, halvings: u32) {
     let inner = 1e-3 * (b - a);
-    let at = |u: f64| eq.solve_v(&frame.moving, u).root(branch);
-    let end = |u: f64, within: f64| {
-        let near = axis.place(at(within), 1e-9)?;
-        Some(axis.nearest(at(u), near).clamp(axis.start, axis.end()))
-    };
-    let (Some(va), Some(vb)) = (end(a, a + inner), end(b, b - inner)) else { return };
-    if (va - vb).abs() > 3.0 && axis.turns && halvings > 0 {
+    let (Some(va), Some(vb)) = (g.end(a, a + inner), g.end(b, b - inner)) else { return };
+    if (va - vb).abs() > 3.0 && g.frame.axes[1].turns && halvings > 0 {
         let middle = 0.5 * (a + b);
-        graph(pair, eq, frame, (branch, a, middle), out, halvings - 1);
-        graph(pair, eq, frame, (branch, middle, b), out, halvings - 1);
+        graph(g, a, middle, out, halvings - 1);
+        graph(g, middle, b, out, halvings - 1);
         return;
     }
-    out.push(Element { pair, branch, u: [a, b], v: [va, vb] });
+    out.push(Element { pair: g.pair, branch: g.branch, u: [a, b], v: [va, vb] });
 }
 
 fn upright(pair: u32, eq: &Equation, frame: &Frame, scratch: &mut Scratch, out: &mut Vec<Element>) {

@@ -9,7 +9,7 @@ use mainspring_mechanism::Pose;
 /// Discs sampled per section, besides one for each span.
 const SAMPLES: f64 = 120.0;
 /// Pairs of tree nodes looked at for one cell.
-const EFFORT: usize = 60;
+const EFFORT: usize = 200;
 
 /// Discs inside one section: centres and radii in local coordinates, and a tree over the centres.
 #[derive(Clone, Debug)]
