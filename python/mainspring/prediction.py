@@ -115,6 +115,11 @@ def predict(
     max_minima, max_time
         Give up there, with status `no_pattern`.
 
+    Raises
+    ------
+    InputError
+        As for `simulate`; fractions lie above 0 and up to 1.
+
     Notes
     -----
     Gelsey 1995, Algorithm 12, with the corrections told in docs/theory/patterns.md.

@@ -48,12 +48,17 @@ class Trajectory:
         Parameters
         ----------
         t
-            One time or `(m,)` times.
+            One time or `(m,)` times, from 0 to the end of the run (later, too, where it ended at rest).
 
         Returns
         -------
         State
             `q` and `v`, `(parts,)` for one time, `(m, parts)` for several.
+
+        Raises
+        ------
+        ValueError
+            For a time at which the motion is not known.
         """
         times = np.atleast_1d(np.asarray(t, dtype=np.float64))
         q, v = self._run.sample(times)
@@ -130,9 +135,9 @@ class Simulation(Result):
 
     def _sentences(self) -> Iterable[str]:
         yield _ENDED.get(self.status, self.status).format(f"{self.t:.6g}")
-        blows = sum(e.kind == "impact" for e in self.events)
+        changes = sum(e.kind != "impact" for e in self.events)
         yield (
-            f"{blows} impacts, {len(self.events) - blows} contact changes; "
+            f"{self.stats['impacts']} impacts, {changes} contact changes; "
             f"the energy account closes to {abs(self.energy.residual):.0e}."
         )
 
@@ -184,11 +189,11 @@ def simulate(
     Parameters
     ----------
     until
-        End of the run, in the file's time unit.
+        End of the run, above 0, in the file's time unit.
     contact
         Contact model: `rigid`.
     rtol
-        Relative tolerance of states and of contact times.
+        Relative tolerance of states and of contact times, from 1e-13 to 1e-2.
     positions, velocities
         Initial state by part, in radians or the file's length; the others as the supplement says.
     forces
@@ -201,7 +206,7 @@ def simulate(
     Raises
     ------
     InputError
-        For an unknown part, or a machine that lacks what a run needs.
+        For an unknown part, an option out of its range, or a machine that lacks what a run needs.
 
     Notes
     -----

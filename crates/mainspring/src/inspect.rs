@@ -77,15 +77,15 @@ fn subsystem(m: &Mechanism, s: &Subsystem) -> Value {
     })
 }
 
-/// Warnings as on standard error, with their place where they have one.
+/// Warnings as on standard error. One without a place of its own stands where its first moving part does; one
+/// about the whole machine, at the frame.
 fn warnings(m: &Mechanism) -> Vec<String> {
     m.warnings
         .iter()
-        .map(|w| match w.place {
-            Some(place) => {
-                m.machine.error(place, w.message.clone()).to_string().replacen(": error: ", ": warning: ", 1)
-            }
-            None => w.message.clone(),
+        .map(|w| {
+            let part = w.parts.iter().copied().find(|p| *p != m.frame).unwrap_or(m.frame);
+            let place = w.place.unwrap_or(m.parts[part].place);
+            m.machine.error(place, w.message.clone()).to_string().replacen(": error: ", ": warning: ", 1)
         })
         .collect()
 }

@@ -3,6 +3,7 @@
 mod contacts;
 mod drawing;
 mod inspect;
+mod options;
 mod prediction;
 mod sentences;
 mod simulation;

@@ -1,6 +1,7 @@
 //! `simulate`: a run to a given time, with its dense motion.
 
 use crate::contacts::contacts_json;
+use crate::options::check_simulation;
 use crate::words::{by_part, clean};
 use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
 use mainspring_mechanism::{Mechanism, System};
@@ -50,12 +51,13 @@ pub struct SimulationResult {
 /// Runs a mechanism from its initial state. `progress` is told the time and may answer false.
 ///
 /// # Errors
-/// What keeps a machine from being simulated: see `Mechanism::coordinates`.
+/// Options out of their range, and what keeps a machine from being simulated: see `Mechanism::coordinates`.
 pub fn simulate(
     mechanism: &Mechanism,
     options: &SimulationOptions,
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<SimulationResult, Error> {
+    check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
     let source = system.direct_search();
     let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
@@ -96,6 +98,16 @@ impl SimulationResult {
     /// Times of steps and events.
     pub fn times(&self) -> &[f64] {
         &self.run.trajectory.times
+    }
+
+    /// Is the motion known at time `t`? Within the run, and for ever after where it ended at rest.
+    pub fn knows(&self, t: f64) -> bool {
+        t >= 0.0 && (t <= self.run.t || (self.run.status == Status::AtRest && t.is_finite()))
+    }
+
+    /// Where the run ended.
+    pub fn end(&self) -> f64 {
+        self.run.t
     }
 
     /// Positions and velocities of the moving parts at time `t`, dense (just after an event at exactly `t`).

@@ -69,6 +69,9 @@ impl<'a> Reader<'a> {
         let place = self.token.place;
         let first = self.number("the inertia and the friction")?;
         if !self.at_number() {
+            if !(self.token.is_end() || self.token.is_word("spring")) {
+                return Err(self.unexpected("the friction"));
+            }
             let model = &self.machine.parts()[part];
             if model.density.is_none() {
                 let name = &model.name;

@@ -51,7 +51,7 @@ const MAX_GEAR_WORK: u64 = 4_000_000;
 
 fn no_frame(machine: &Machine) -> Error {
     let place = machine.parts().first().map_or(Default::default(), |p| p.place);
-    machine.error(place, "no part is marked as the frame, expected a line like: attr frame : frame = 1")
+    machine.error(place, "no part is marked as the frame; expected a line like: attr frame : frame = 1")
 }
 
 fn assemble(
@@ -66,7 +66,7 @@ fn assemble(
     let solids: Vec<Solid<'_>> = models.iter().map(|p| solid(&primitives, &boxes, &p.csg)).collect();
     let size = solids.iter().fold(Bounds::EMPTY, |b, s| b.join(&s.bounds)).diagonal();
     if !size.is_finite() {
-        let message = "the machine's size overflows, expected lengths below 1e150".to_string();
+        let message = "the machine's size overflows; expected lengths below 1e150".to_string();
         return Err(machine.error(models[frame].place, message));
     }
     let tolerance = RELATIVE_TOLERANCE * size;
@@ -114,6 +114,9 @@ fn assemble(
         })
         .collect();
     let mut warnings = warnings;
+    for w in warnings.iter_mut().filter(|w| w.parts.len() == 2) {
+        w.message = format!("{} and {}: {}", name(w.parts[0]), name(w.parts[1]), w.message);
+    }
     warnings.extend(parts.iter().enumerate().filter_map(left_out));
     let near_misses = misses.iter().map(|m| near_miss(m, &name)).collect();
     let numbers = values.as_slice();
@@ -161,7 +164,7 @@ fn gear_data(
         let members = gear.members.iter().filter_map(of).collect();
         if scene.work.ran_out() {
             let message = format!(
-                "{} has too many primitives to tell on which side its teeth are, expected fewer",
+                "{} has too many primitives to tell on which side its teeth are; expected fewer",
                 gear.name
             );
             return Err(machine.error(gear.place, message));

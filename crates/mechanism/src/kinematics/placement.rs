@@ -98,7 +98,7 @@ impl Mechanism {
         let near = self.near_misses.iter().find(|m| m.parts == (i, j));
         let hint = near.map_or(String::new(), |m| format!(" (near miss: {})", m.reason));
         let message = format!(
-            "{} and {} overlap at the start, near ({}, {}, {}), expected parts that at most touch{hint}",
+            "{} and {} overlap at the start, near ({}, {}, {}); expected parts that at most touch{hint}",
             self.parts[i].name,
             self.parts[j].name,
             n(p.x),

@@ -45,14 +45,18 @@ impl Mechanism {
             let moving = if pair.parts.0 == self.frame { pair.parts.1 } else { pair.parts.0 };
             let names = format!("{} and {}", self.parts[pair.parts.0].name, self.parts[pair.parts.1].name);
             if turns && slides {
+                // Where shapes that are no prisms kept the second freedom, they are what has to change.
+                if self.plane.planar {
+                    self.check_outlines()?;
+                }
                 let message = format!(
-                    "{names} form a cylindrical pair with two freedoms, expected one (it may turn and slide)"
+                    "{names} form a cylindrical pair with two freedoms; expected one (it may turn and slide)"
                 );
                 return self.fail(moving, message);
             }
             if (turns && !parallel(d, n)) || (slides && !perpendicular(d, n)) {
                 let message = format!(
-                    "{names} do not move in the plane in which the others move, expected planar motion"
+                    "{names} do not move in the plane in which the others move; expected planar motion"
                 );
                 return self.fail(moving, message);
             }
@@ -66,9 +70,9 @@ impl Mechanism {
         let first = chain.parts.iter().copied().find(|p| *p != self.frame).unwrap_or(self.frame);
         let names = names.join(", ");
         let message = if chain.gears_only {
-            format!("the gears of {names} lock each other, expected ratios that agree")
+            format!("the gears of {names} lock each other; expected ratios that agree")
         } else {
-            format!("{names} form a closed chain of pairs, expected an open one")
+            format!("{names} form a closed chain of pairs; expected an open one")
         };
         self.fail(first, message)
     }
@@ -77,12 +81,12 @@ impl Mechanism {
         let part = &self.parts[i];
         let (Some(joint), Some(carrier)) = (part.joint, part.carrier) else {
             let message =
-                format!("{} has no pair with the frame, expected one it turns or slides in", part.name);
+                format!("{} has no pair with the frame; expected one it turns or slides in", part.name);
             return self.fail(i, message);
         };
         if !self.stands(carrier) {
             let message = format!(
-                "{} has no pair with the frame, only one with {}, expected one it turns or slides in",
+                "{} has no pair with the frame, only one with {}; expected one it turns or slides in",
                 part.name, self.parts[carrier].name
             );
             return self.fail(i, message);
@@ -90,13 +94,13 @@ impl Mechanism {
         match part.inertia {
             None if self.pairs[joint].kind != PairKind::Fixed => {
                 let message = format!(
-                    "the inertia of {} is not known, expected a line of the supplement or a density",
+                    "the inertia of {} is not known; expected a line of the supplement or a density",
                     part.name
                 );
                 self.fail(i, message)
             }
             Some(inertia) if !(inertia > 0.0 && inertia.is_finite()) => {
-                self.fail(i, format!("the inertia of {} is {inertia}, expected a positive number", part.name))
+                self.fail(i, format!("the inertia of {} is {inertia}; expected a positive number", part.name))
             }
             _ => Ok(()),
         }
@@ -141,7 +145,7 @@ impl Mechanism {
         }
         self.fail(
             s.root,
-            format!("the values of {} overflow, expected finite inertia, friction and spring", c.name),
+            format!("the values of {} overflow; expected finite inertia, friction and spring", c.name),
         )
     }
 
@@ -191,7 +195,7 @@ impl Mechanism {
                     let place = part.tilted.map_or(part.place, |p| self.machine.place_of_primitive(p));
                     let why = part.note.as_deref().unwrap_or("it has no planar outline");
                     let message =
-                        format!("{} may touch {}, but {why}, expected prisms", part.name, self.parts[j].name);
+                        format!("{} may touch {}, but {why}; expected prisms", part.name, self.parts[j].name);
                     return Err(self.machine.error(place, message));
                 }
             }

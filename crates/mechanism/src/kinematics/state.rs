@@ -46,10 +46,10 @@ impl Mechanism {
         if !value.is_finite() {
             return Err(self
                 .machine
-                .error(place, format!("the value for {name} is {value}, expected a finite number")));
+                .error(place, format!("the value for {name} is {value}; expected a finite number")));
         }
         let Some((s, ratio)) = self.subsystem_of(part) else {
-            let message = format!("{name} has no joint to set, expected a part that turns or slides");
+            let message = format!("{name} has no joint to set; expected a part that turns or slides");
             return Err(self.machine.error(place, message));
         };
         for (member, r) in self.subsystems[s].parts.clone() {

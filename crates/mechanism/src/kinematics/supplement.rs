@@ -82,19 +82,21 @@ fn spread(mechanism: &Mechanism, given: &[StateValue], what: &str) -> Result<Vec
         let Some((s, ratio)) = mechanism.subsystem_of(state.part) else {
             let name = &mechanism.parts[state.part].name;
             let message =
-                format!("{name} has no joint to take a {what}, expected a part that turns or slides");
+                format!("{name} has no joint to take a {what}; expected a part that turns or slides");
             return Err(mechanism.machine.error(state.place, message));
         };
         if mechanism.subsystems[s].closed && value != 0.0 {
             let name = &mechanism.parts[state.part].name;
-            let message = format!("{name} is in a closed chain of pairs, expected no {what} for its parts");
+            let message = format!("{name} is in a closed chain of pairs; expected no {what} for its parts");
             return Err(mechanism.machine.error(state.place, message));
         }
         let at_root = value / ratio;
         match roots[s] {
             Some((known, _)) if (known - at_root).abs() > SAME_POSITION * (1.0 + known.abs()) => {
                 let name = &mechanism.parts[state.part].name;
-                let message = format!("the {what} of {name} contradicts that of a gear in mesh with it");
+                let message = format!(
+                    "the {what} of {name} contradicts that of a gear in mesh with it; expected values that agree"
+                );
                 return Err(mechanism.machine.error(state.place, message));
             }
             _ => roots[s] = Some((at_root, state.place)),
