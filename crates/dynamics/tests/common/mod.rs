@@ -105,12 +105,15 @@ pub fn system(coordinates: Vec<Coordinate>, text: &str, joints: &[(&str, Joint)]
     System::new(coordinates, bodies(text, joints), &[], size)
 }
 
-/// Runs to a time with a tolerance.
+/// Runs to a time with a tolerance, with the unpruned overlap check beside it: at every step and half way between,
+/// or at so many instants of a run that is longer.
 pub fn run(system: &System, until: f64, rtol: f64) -> Run {
     let source = system.direct_search();
     let mut run = Simulation::new(system, &source, Options { until, rtol, ..Options::default() });
     run.run(&mut |_| true);
-    run.into_run()
+    let run = run.into_run();
+    overlap::assert_free(system, &run);
+    run
 }
 
 /// Minima below 1e-5 of the greatest kinetic energy so far (those of Algorithm 12).
