@@ -37,11 +37,6 @@ pub fn by_index(
         let message =
             || format!("{option}:1:1: error: no part {name:?}; expected one of {}", moving.join(", "));
         let part = mechanism.part_index(name).ok_or_else(|| InputError::new_err(message()))?;
-        if !value.is_finite() {
-            let what =
-                format!("{option}:1:1: error: the value for {name} is {value}; expected a finite number");
-            return Err(InputError::new_err(what));
-        }
         Ok((part, *value))
     };
     values.iter().map(index).collect()

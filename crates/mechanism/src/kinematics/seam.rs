@@ -25,12 +25,23 @@ impl Mechanism {
     /// What inspection allows and simulation cannot do: a part without a pair with the frame, closed chains, pairs
     /// with two freedoms, motion that is not planar, gears that lock each other, an inertia that is not known.
     pub fn coordinates(&self) -> Result<Vec<Coordinate>, Error> {
+        self.check_motion()?;
+        (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_inertia(p))?;
+        self.subsystems.iter().map(|s| self.finite(s, self.coordinate(s))).collect()
+    }
+
+    /// The same machine for questions of reach alone, which inertias, friction and springs do not answer.
+    pub(crate) fn system_of_shapes(&self) -> Result<System, Error> {
+        self.check_motion()?;
+        let coordinates = self.subsystems.iter().map(|s| self.coordinate(s)).collect();
+        Ok(System::new(coordinates, self.bodies()?, &self.exclusions(), self.size))
+    }
+
+    /// Can every part move in the plane, with one freedom of its own?
+    fn check_motion(&self) -> Result<(), Error> {
         self.check_planar()?;
         self.check_chains()?;
-        for part in (0..self.parts.len()).filter(|p| *p != self.frame) {
-            self.check_part(part)?;
-        }
-        self.subsystems.iter().map(|s| self.coordinate(s)).collect()
+        (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_joint(p))
     }
 
     fn fail<T>(&self, part: usize, message: String) -> Result<T, Error> {
@@ -77,9 +88,9 @@ impl Mechanism {
         self.fail(first, message)
     }
 
-    fn check_part(&self, i: usize) -> Result<(), Error> {
+    fn check_joint(&self, i: usize) -> Result<(), Error> {
         let part = &self.parts[i];
-        let (Some(joint), Some(carrier)) = (part.joint, part.carrier) else {
+        let (Some(_), Some(carrier)) = (part.joint, part.carrier) else {
             let message =
                 format!("{} has no pair with the frame; expected one it turns or slides in", part.name);
             return self.fail(i, message);
@@ -91,8 +102,14 @@ impl Mechanism {
             );
             return self.fail(i, message);
         }
+        Ok(())
+    }
+
+    fn check_inertia(&self, i: usize) -> Result<(), Error> {
+        let part = &self.parts[i];
+        let moves = part.joint.is_some_and(|j| self.pairs[j].kind != PairKind::Fixed);
         match part.inertia {
-            None if self.pairs[joint].kind != PairKind::Fixed => {
+            None if moves => {
                 let message = format!(
                     "the inertia of {} is not known; expected a line of the supplement or a density",
                     part.name
@@ -118,7 +135,7 @@ impl Mechanism {
         at == self.frame
     }
 
-    fn coordinate(&self, s: &Subsystem) -> Result<Coordinate, Error> {
+    fn coordinate(&self, s: &Subsystem) -> Coordinate {
         let root = &self.parts[s.root];
         let mut c = Coordinate {
             name: root.name.clone(),
@@ -140,6 +157,10 @@ impl Mechanism {
                 c.energy_at_zero += 0.5 * k * spring.relaxed * spring.relaxed;
             }
         }
+        c
+    }
+
+    fn finite(&self, s: &Subsystem, c: Coordinate) -> Result<Coordinate, Error> {
         if c.inertia > 0.0 && [c.inertia, c.stiffness, c.force, c.damping].iter().all(|x| x.is_finite()) {
             return Ok(c);
         }
