@@ -109,7 +109,9 @@ def test_what_is_no_prism_is_named_and_nothing_else(cli, tmp_path):
     (tmp_path / "cone.sup").write_text(ESCAPEMENT.with_suffix(".sup").read_text())
     done = cli("simulate", "cone.padl", "--until", "1")
     assert (done.returncode, done.stdout) == (2, "")
-    assert re.fullmatch(r"cone\.padl:30:\d+: error: [^\n]*lever \(con\)[^\n]*; expected [^\n]+\n", done.stderr)
+    assert re.fullmatch(
+        r"cone\.padl:30:\d+: error: [^\n]*lever \(con\)[^\n]*; expected [^\n]+\n", done.stderr
+    )
     seen = cli("inspect", "cone.padl")
     assert seen.returncode == 0
     warned = seen.stderr.splitlines()

@@ -346,6 +346,7 @@ fn supplements() {
             "SPEED a 3",
             "1:1: error: unexpected `SPEED`; expected `< PART : FRAME > …`, `POSITION part value` or `VELOCITY part value`",
         ),
+        ("< a : FRAME > 1 inf", "1:17: error: unexpected `inf`; expected the friction"),
         ("< a : FRAME > nan 2", "1:15: error: unexpected `nan`; expected the inertia and the friction"),
         ("< a : FRAME > 1_0 2", "1:15: error: `1_0` is not a number; expected one like 12, 0.5 or 1e-3"),
     ];

@@ -30,7 +30,9 @@ def main(argv: list[str] | None = None) -> int:
         sys.stderr.close()
         return 0
     except OSError as fault:
-        what = f"the file cannot be used ({fault.strerror or fault}); expected one that can be read and written"
+        what = (
+            f"the file cannot be used ({fault.strerror or fault}); expected one that can be read and written"
+        )
         return _fail(f"{fault.filename or 'mainspring'}:1:1: error: {what}")
     except ValueError as fault:
         return _input_error(fault)

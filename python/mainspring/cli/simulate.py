@@ -90,10 +90,10 @@ def account(mechanism: "ms.Mechanism", result: Simulation, stats: Mapping[str, f
     """Say how it ended, then the final state, the energy account and the work it took."""
     motions = {p["name"]: p["motion"]["kind"] for p in mechanism.outlines()["parts"] if p["motion"]}
     ended = _ENDED.get(result.status, result.status)
-    kinds = [e.kind for e in result.events]
+    changes = sum(e.kind != "impact" for e in result.events)
     print(f"{mechanism.name}: the run {ended}, t = {tables.signed(result.t, 8)} s.")
     print(
-        f"{result.stats['impacts']} impacts, {kinds.count('close') + kinds.count('release')} contact changes, "
+        f"{result.stats['impacts']} impacts, {changes} contact changes, "
         f"{len(result.kinetic_energy_minima)} minima of kinetic energy."
     )
     rows = (
