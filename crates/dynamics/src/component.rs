@@ -6,7 +6,7 @@
 use crate::flight::Bounds;
 use crate::linear::{Cholesky, Small};
 use crate::path::Path;
-use crate::runge_kutta::{Equations, Step};
+use crate::runge_kutta::{Equations, Polynomial, Step};
 use crate::settle::{add_forces, inverse_inertia};
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, Placed, Row};
@@ -58,15 +58,15 @@ impl Component {
         Self { coordinates, contacts, bodies, sides, step: Step::default() }
     }
 
-    /// Evaluates the component's contacts at `q`.
-    pub fn touches<'a>(&self, world: &mut World<'a>, q: &[f64]) -> Small<Touch<'a>> {
-        let system = world.system;
-        let placed: Small<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
-        self.contacts
-            .iter()
-            .zip(&self.sides)
-            .map(|(c, &(a, b))| world.touch_placed(c, (placed[a], placed[b])))
-            .collect()
+    /// The bodies of the component's contacts at `q`.
+    pub fn place<'a>(&self, world: &World<'a>, q: &[f64]) -> Small<Placed<'a>> {
+        self.bodies.iter().map(|&b| Placed::new(&world.system.bodies[b], q)).collect()
+    }
+
+    /// Evaluates the component's contacts between its placed bodies.
+    pub fn touches<'p>(&self, world: &mut World, placed: &'p [Placed<'p>]) -> Small<Touch<'p>> {
+        let pair = |&(a, b): &(usize, usize)| (&placed[a], &placed[b]);
+        self.contacts.iter().zip(&self.sides).map(|(c, sides)| world.touch(c, pair(sides))).collect()
     }
 
     /// Forces of the contacts, and accelerations of all coordinates they touch added to `acceleration`. None if
@@ -118,7 +118,7 @@ impl Component {
             let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
                 let dense = step.dense(&mut equations, t, &y, h);
-                let paths = self.paths(&step, &dense, t, h);
+                let paths = self.paths(&dense, t, h);
                 break Some(Advance { h, next: h * factor, paths });
             }
             h *= factor.min(0.5);
@@ -136,31 +136,23 @@ impl Component {
         positions.chain(speeds).collect()
     }
 
-    /// Bounds over the step are those of its stages with a quarter added: the step's error is controlled.
-    fn paths(
-        &self,
-        step: &Step,
-        dense: &[crate::runge_kutta::Polynomial],
-        t: f64,
-        h: f64,
-    ) -> Vec<(usize, Path)> {
+    /// The paths of a step, with bounds over all of it.
+    fn paths(&self, dense: &[Polynomial], t: f64, h: f64) -> Vec<(usize, Path)> {
         let n = self.coordinates.len();
-        let greatest = |unknown: usize| {
-            (0..=crate::tableau::STAGES).map(|s| step.stage_derivative(s, unknown).abs()).fold(0.0, f64::max)
-                * 1.25
+        let path = |k: usize| {
+            let [speed, first, second] = dense[n + k].bounds();
+            // The slope of positions is the velocity only to the tolerance.
+            let bounds = Bounds { speed: 1.02 * speed, acceleration: 1.02 * first / h };
+            Path::Step { t0: t, h, q: dense[k], v: dense[n + k], bounds, jerk: 1.02 * second / (h * h) }
         };
-        (0..n)
-            .map(|k| {
-                let bounds = Bounds { speed: greatest(k), acceleration: greatest(n + k) };
-                (self.coordinates[k], Path::Step { t0: t, h, q: dense[k], v: dense[n + k], bounds })
-            })
-            .collect()
+        (0..n).map(|k| (self.coordinates[k], path(k))).collect()
     }
 
     /// Moves `q` onto g = 0 and `v` onto G q̇ = 0 along M⁻¹ Gᵀ: the nearest state in the metric of inertia.
     pub fn project(&self, world: &mut World, q: &mut [f64], v: &mut [f64]) {
         for _ in 0..3 {
-            let touches = self.touches(world, q);
+            let placed = self.place(world, q);
+            let touches = self.touches(world, &placed);
             let rows: Small<Row> = touches.iter().map(Touch::row).collect();
             let Some(factor) = Cholesky::new(inverse_inertia(world.system, &rows), rows.len()) else {
                 return;
@@ -210,7 +202,8 @@ impl Equations for ComponentEquations<'_, '_> {
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
-        let touches = self.component.touches(self.world, &self.q);
+        let placed = self.component.place(self.world, &self.q);
+        let touches = self.component.touches(self.world, &placed);
         let (q, v, acceleration) = (&self.q, &self.v, &mut self.acceleration);
         self.singular |= self.component.forces_of(self.world, &touches, q, v, acceleration).is_none();
         for (k, &i) in self.component.coordinates.iter().enumerate() {

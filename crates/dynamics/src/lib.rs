@@ -4,6 +4,7 @@
 //! elimination of coordinates.
 
 mod chatter;
+mod clearance;
 mod complementarity;
 mod component;
 mod energy;
@@ -19,6 +20,7 @@ mod ranges;
 mod runge_kutta;
 mod search;
 mod settle;
+mod sight;
 mod simulation;
 mod tableau;
 mod watch;

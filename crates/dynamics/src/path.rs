@@ -17,6 +17,8 @@ pub enum Path {
         q: Polynomial,
         v: Polynomial,
         bounds: Bounds,
+        /// A bound of the rate of change of acceleration.
+        jerk: f64,
     },
 }
 
@@ -108,12 +110,12 @@ impl Path {
         }
     }
 
-    /// A bound of the rate of change of acceleration under `bounds`; an estimate along integrated steps.
+    /// A bound of the rate of change of acceleration under `bounds`.
     pub fn jerk(&self, bounds: Bounds) -> f64 {
         match self {
             Path::Rest { .. } => 0.0,
             Path::Flight(flight) => flight.jerk(bounds),
-            Path::Step { h, .. } => 2.0 * bounds.acceleration / h,
+            Path::Step { jerk, .. } => *jerk,
         }
     }
 }

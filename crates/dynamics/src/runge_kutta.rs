@@ -58,11 +58,6 @@ impl Step {
         f.derivative(t + C[stage] * h, &self.scratch, &mut self.k[row]);
     }
 
-    /// Derivative of unknown `i` at a stage of the step (12 is the end).
-    pub fn stage_derivative(&self, stage: usize, i: usize) -> f64 {
-        self.k[stage * self.n + i]
-    }
-
     /// Interpolation polynomials of the accepted step, order 7: one a unknown.
     pub fn dense(&mut self, f: &mut impl Equations, t: f64, y: &[f64], h: f64) -> Vec<Polynomial> {
         for stage in STAGES + 1..DENSE_STAGES {
@@ -101,6 +96,35 @@ impl Polynomial {
         self.start + y
     }
 
+    /// Coefficients of powers of x, from 0 to 7.
+    fn powers(&self) -> [f64; POWERS + 1] {
+        let mut p = [0.0; POWERS + 1];
+        for (i, f) in self.coefficients.iter().rev().enumerate() {
+            p[0] += f;
+            // Times x or times 1 − x, from the highest power down.
+            for k in (1..p.len()).rev() {
+                p[k] = if i % 2 == 0 { p[k - 1] } else { p[k] - p[k - 1] };
+            }
+            p[0] *= if i % 2 == 0 { 0.0 } else { 1.0 };
+        }
+        p[0] += self.start;
+        p
+    }
+
+    /// Bounds of |y|, |dy/dx| and |d²y/dx²| over the step: a polynomial lies within its Bernstein coefficients.
+    pub fn bounds(&self) -> [f64; 3] {
+        let mut p = self.powers();
+        let mut bounds = [0.0; 3];
+        for (order, bound) in bounds.iter_mut().enumerate() {
+            let degree = POWERS - order;
+            *bound = bernstein_bound(&p[..=degree]);
+            for k in 1..=degree {
+                p[k - 1] = k as f64 * p[k];
+            }
+        }
+        bounds
+    }
+
     /// dy/dx.
     pub fn slope(&self, x: f64) -> f64 {
         let (mut y, mut dy) = (0.0, 0.0);
@@ -111,6 +135,25 @@ impl Polynomial {
         }
         dy
     }
+}
+
+/// Greatest magnitude of the Bernstein coefficients `bᵢ = Σ_{k ≤ i} C(i, k) / C(n, k) pₖ` of a polynomial.
+fn bernstein_bound(p: &[f64]) -> f64 {
+    let n = p.len() - 1;
+    let mut b = [0.0; POWERS + 1];
+    b[..=n].copy_from_slice(p);
+    let mut binomial = 1.0;
+    for k in 1..=n {
+        binomial *= (n + 1 - k) as f64 / k as f64;
+        b[k] /= binomial;
+    }
+    // Sums with binomial weights, as in Pascal's triangle.
+    for round in 1..=n {
+        for i in (round..=n).rev() {
+            b[i] += b[i - 1];
+        }
+    }
+    b[..=n].iter().fold(0.0, |most, x| x.abs().max(most))
 }
 
 #[cfg(test)]
@@ -140,5 +183,27 @@ mod tests {
         let ((end, inside), (half_end, half_inside)) = (error(0.8), error(0.4));
         assert!((end / half_end).log2() > 8.5, "local order 9, was {}", (end / half_end).log2());
         assert!((inside / half_inside).log2() > 7.0, "was {}", (inside / half_inside).log2());
+    }
+
+    /// Bounds hold at every place of the step and are near the greatest values.
+    #[test]
+    fn bounds_hold_over_the_step() {
+        for h in [0.1, 0.8, 2.0] {
+            let (y, mut step) = ([0.3, 1.0], Step::default());
+            step.resize(2);
+            step.attempt(&mut Oscillator, 0.0, &y, h, &[1.0, 1.0]);
+            for p in step.dense(&mut Oscillator, 0.0, &y, h) {
+                let [value, slope, second] = p.bounds();
+                let xs = || (0..=200).map(|i| f64::from(i) / 200.0);
+                let most = |f: &dyn Fn(f64) -> f64| xs().map(|x| f(x).abs()).fold(0.0, f64::max);
+                let bend = |x: f64| (p.slope(x + 1e-5) - p.slope(x - 1e-5)) / 2e-5;
+                for (bound, found) in
+                    [(value, most(&|x| p.at(x))), (slope, most(&|x| p.slope(x))), (second, most(&bend))]
+                {
+                    assert!(found <= bound * (1.0 + 1e-6), "{found} against {bound}");
+                    assert!(bound <= 1.5 * found, "{bound} is far above {found}");
+                }
+            }
+        }
     }
 }

@@ -9,7 +9,7 @@ use crate::linear::{Cholesky, Small};
 use crate::place::representatives;
 use crate::search::TOGETHER;
 use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, ContactId, ContactSource, Row, System};
+use mainspring_mechanism::{Candidate, ContactId, ContactSource, Placed, Relative, Row, System};
 
 /// Rates below this fraction of the speeds at hand count as zero.
 const STILL: f64 = 1e-10;
@@ -66,7 +66,8 @@ pub struct Instant<'a> {
 /// Resolves an instant; `v` is changed by impacts.
 pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     let mut out = Settled { solved: true, ..Settled::default() };
-    let near = near_touches(world, instant.q);
+    let placed = world.place_all(instant.q);
+    let near = near_touches(world, instant.q, &placed);
     for _ in 0..MOST_ROUNDS {
         let touches = choose(world, instant, &near, v);
         if !impact(world.system, instant, &touches, v, &mut out) {
@@ -101,32 +102,37 @@ pub fn forces_at(
     v: &[f64],
 ) -> Vec<Closed> {
     let mut world = World::new(system, source);
-    let touches: Vec<Touch> = closed.iter().map(|c| world.touch(&c.candidate, q)).collect();
+    let placed = world.place_all(q);
+    let touches: Vec<Touch> = closed.iter().map(|c| world.touch_among(&c.candidate, &placed)).collect();
     let problem = Balance::new(system, touches.iter().collect(), q, v);
     let forces = problem.solution.lambda;
     closed.iter().zip(forces).map(|(c, force)| Closed { force, active: force > 0.0, ..*c }).collect()
 }
 
 /// Every contact closed to `TOGETHER` at `q`, wherever along its features.
-fn near_touches<'a>(world: &mut World<'a>, q: &[f64]) -> Vec<Touch<'a>> {
+fn near_touches<'p>(world: &mut World, q: &[f64], placed: &'p [Placed<'p>]) -> Vec<Touch<'p>> {
     let within = TOGETHER * world.system.size;
+    let still: Small<f64, 8> = smallvec::smallvec![0.0; q.len()];
     let mut found = Vec::new();
     for interaction in 0..world.arms.len() {
         let (travelled, _) = world.refresh(interaction, q, 2.0 * within);
+        let (a, b) = world.system.interactions[interaction].bodies;
+        let relative = Relative::new(&placed[a], &placed[b], &still, &still);
         for k in 0..world.listed(interaction).len() {
             let candidate = world.listed(interaction)[k];
-            if candidate.distance - travelled <= 2.0 * within {
-                let touch = world.touch(&candidate, q);
-                if touch.state.gap <= within && touch.state.gap >= -1e3 * within {
-                    found.push(touch);
-                }
+            if candidate.distance - travelled > 2.0 * within {
+                continue;
+            }
+            let gap = world.approach(&candidate, &relative).gap;
+            if gap <= within && gap >= -1e3 * within {
+                found.push(world.touch_among(&candidate, placed));
             }
         }
     }
     found
 }
 
-fn choose<'a>(world: &mut World<'a>, instant: &Instant, near: &[Touch<'a>], v: &[f64]) -> Vec<Touch<'a>> {
+fn choose<'p>(world: &mut World, instant: &Instant, near: &[Touch<'p>], v: &[f64]) -> Vec<Touch<'p>> {
     let kept: Vec<ContactId> = instant.closed.iter().map(|c| c.candidate.id).collect();
     let tolerances = |row: &Row| rate_tolerance(row, instant.speeds);
     let mut chosen = representatives(world, instant.q, v, near, &kept, &tolerances);

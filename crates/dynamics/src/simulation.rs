@@ -306,7 +306,8 @@ impl<'a> Simulation<'a> {
         for k in 0..self.closed.len() {
             let Closed { candidate, active, .. } = self.closed[k];
             if !active && moving(&self.world, candidate.id.interaction, &self.paths) {
-                let touch = self.world.touch(&candidate, &self.q);
+                let (a, b) = self.world.place(&candidate, &self.q);
+                let touch = self.world.touch(&candidate, (&a, &b));
                 let off = touch.margin(self.world.system.size) < 0.0;
                 changed |= touch.state.gap.abs() > open || off;
             }
@@ -322,7 +323,8 @@ impl<'a> Simulation<'a> {
         let size = self.world.system.size;
         for (id, floor) in std::mem::take(&mut self.released) {
             let Some(candidate) = find_candidate(&self.world, id) else { continue };
-            let touch = self.world.touch(&candidate, &self.q);
+            let (a, b) = self.world.place(&candidate, &self.q);
+            let touch = self.world.touch(&candidate, (&a, &b));
             let off = touch.margin(size) <= 0.0 && (touch.state.gap - floor).abs() > open;
             if touch.state.gap <= open && !off {
                 self.released.push((id, floor));
@@ -335,7 +337,8 @@ impl<'a> Simulation<'a> {
         self.chattering = None;
         let Change::Closing(id) = change else { return };
         let Some(candidate) = find_candidate(&self.world, id) else { return };
-        let rate = self.world.touch(&candidate, &self.q).rate(&self.v);
+        let (a, b) = self.world.place(&candidate, &self.q);
+        let rate = self.world.touch(&candidate, (&a, &b)).rate(&self.v);
         if self.chatter.closes(id, self.t, rate, self.world.system.size) {
             // Bodies of unlike inertia throw each other faster than they meet.
             self.chattering = Some(100.0 * rate.abs());
@@ -376,7 +379,9 @@ impl<'a> Simulation<'a> {
     /// Rest, flight or component for every coordinate.
     fn set_modes(&mut self, before: &[f64], settled: &Settled) {
         let active: Vec<&Closed> = settled.closed.iter().filter(|c| c.active).collect();
-        let rows: Vec<Row> = active.iter().map(|c| self.world.touch(&c.candidate, &self.q).row()).collect();
+        let placed = self.world.place_all(&self.q);
+        let row = |c: &&Closed| self.world.touch_among(&c.candidate, &placed).row();
+        let rows: Vec<Row> = active.iter().map(row).collect();
         let all: Vec<usize> = (0..rows.len()).collect();
         let mut in_group = vec![false; self.q.len()];
         self.components.clear();
@@ -450,7 +455,8 @@ impl<'a> Simulation<'a> {
 
     /// Would the accelerations of a component, over the times of its springs, give it no more energy than `level`?
     fn is_quiet(&mut self, component: &Component, level: f64) -> bool {
-        let touches = component.touches(&mut self.world, &self.q);
+        let placed = component.place(&self.world, &self.q);
+        let touches = component.touches(&mut self.world, &placed);
         let mut a = vec![0.0; self.q.len()];
         if component.forces_of(&self.world, &touches, &self.q, &self.v, &mut a).is_none() {
             return false;

@@ -71,7 +71,8 @@ impl Probe<'_, '_, '_> {
     fn measure_all(&mut self, world: &mut World, t: f64) -> Small<f64, 8> {
         self.move_to(t);
         let size = world.system.size;
-        let touches = self.component.touches(world, &self.q);
+        let placed = self.component.place(world, &self.q);
+        let touches = self.component.touches(world, &placed);
         let forces = self.component.forces_of(world, &touches, &self.q, &self.v, &mut self.acceleration);
         let forces = forces.unwrap_or_else(|| touches.iter().map(|_| 0.0).collect());
         forces.into_iter().zip(&touches).flat_map(|(force, t)| [force, t.margin(size)]).collect()
@@ -84,7 +85,9 @@ impl Probe<'_, '_, '_> {
         }
         self.move_to(t);
         let size = world.system.size;
-        world.touch(&self.component.contacts[i / 2], &self.q).margin(size)
+        let contact = &self.component.contacts[i / 2];
+        let (a, b) = world.place(contact, &self.q);
+        world.touch(contact, (&a, &b)).margin(size)
     }
 
     /// The time after `good` at which measure `i` turns negative, given a later time at which it is: regula falsi of

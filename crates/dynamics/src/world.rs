@@ -3,7 +3,9 @@
 //! A list made at configuration q₀ with reach r names every contact whose features were nearer than r. Features
 //! move no faster than their lever arms allow, so until the arms have travelled r no other contact can close.
 
-use mainspring_mechanism::{Candidate, ContactSource, Feature, GapState, Placed, Row, System, gap_state};
+use mainspring_mechanism::{
+    Approach, Candidate, ContactSource, Feature, GapState, Placed, Relative, Row, System, approach, gap_state,
+};
 
 /// A coordinate that moves one side of an interaction.
 #[derive(Clone, Copy, Debug)]
@@ -38,28 +40,31 @@ pub struct World<'a> {
     pub queries: u64,
 }
 
-/// A contact evaluated at a configuration.
+/// Two bodies of an interaction, placed.
+pub type Pair<'a> = (Placed<'a>, Placed<'a>);
+
+/// A contact evaluated between placed bodies.
 #[derive(Clone, Copy, Debug)]
-pub struct Touch<'a> {
+pub struct Touch<'p> {
     pub candidate: Candidate,
     pub state: GapState,
-    placed: (Placed<'a>, Placed<'a>),
+    pub placed: (&'p Placed<'p>, &'p Placed<'p>),
 }
 
 impl Touch<'_> {
     /// ∂g/∂q.
     pub fn row(&self) -> Row {
-        self.state.row(&self.placed.0, &self.placed.1)
+        self.state.row(self.placed.0, self.placed.1)
     }
 
     /// ġ at velocities `v`.
     pub fn rate(&self, v: &[f64]) -> f64 {
-        self.state.rate(&self.placed.0, &self.placed.1, v)
+        self.state.rate(self.placed.0, self.placed.1, v)
     }
 
     /// The part of g̈ that accelerations do not cause.
     pub fn bias(&self, v: &[f64]) -> f64 {
-        self.state.bias(&self.placed.0, &self.placed.1, v)
+        self.state.bias(self.placed.0, self.placed.1, v)
     }
 
     /// The nearer of the margins to the ends of the features: length along edges, `size`·radians across cones.
@@ -87,20 +92,37 @@ impl<'a> World<'a> {
         self.system.interactions[c.id.interaction as usize].bodies
     }
 
-    /// Evaluates a contact at positions `q`.
-    pub fn touch(&mut self, c: &Candidate, q: &[f64]) -> Touch<'a> {
+    /// The bodies of a contact at positions `q`.
+    pub fn place(&self, c: &Candidate, q: &[f64]) -> Pair<'a> {
         let (a, b) = self.bodies(c);
         let bodies = &self.system.bodies;
-        let placed = (Placed::new(&bodies[a], q), Placed::new(&bodies[b], q));
-        self.touch_placed(c, placed)
+        (Placed::new(&bodies[a], q), Placed::new(&bodies[b], q))
     }
 
-    /// Evaluates a contact between bodies already placed.
-    pub fn touch_placed(&mut self, c: &Candidate, placed: (Placed<'a>, Placed<'a>)) -> Touch<'a> {
+    /// Every body at positions `q`.
+    pub fn place_all(&self, q: &[f64]) -> Vec<Placed<'a>> {
+        self.system.bodies.iter().map(|body| Placed::new(body, q)).collect()
+    }
+
+    /// Evaluates a contact between its bodies.
+    pub fn touch<'p>(&mut self, c: &Candidate, placed: (&'p Placed<'p>, &'p Placed<'p>)) -> Touch<'p> {
         self.evaluations += 1;
         let (fa, fb) = self.features(c);
         let state = gap_state(c.kind, fa, fb, &placed.0.pose, &placed.1.pose);
         Touch { candidate: *c, state, placed }
+    }
+
+    /// Evaluates a contact among all bodies placed.
+    pub fn touch_among<'p>(&mut self, c: &Candidate, placed: &'p [Placed<'p>]) -> Touch<'p> {
+        let (a, b) = self.bodies(c);
+        self.touch(c, (&placed[a], &placed[b]))
+    }
+
+    /// Gap and rate of a contact in the relative motion of its bodies.
+    pub fn approach(&mut self, c: &Candidate, relative: &Relative) -> Approach {
+        self.evaluations += 1;
+        let (fa, fb) = self.features(c);
+        approach(c.kind, fa, fb, relative)
     }
 
     /// How far the arms of either side of an interaction have moved since its list was made.

@@ -130,7 +130,7 @@ fn edge_state(
     let n = edge_pose.rotate(normal);
     let offset = c - edge_pose.apply(from);
     let along = edge_pose.rotate(tangent).dot(offset);
-    let cone_margin = cone.margin(unrotate(round_pose, -n));
+    let cone_margin = cone.margin(round_pose.rotate_back(-n));
     GapState {
         gap: n.dot(offset) - radius,
         normal: if swapped { -n } else { n },
@@ -160,7 +160,7 @@ fn centers_state(a: &Feature, b: &Feature, pose_a: &Pose, pose_b: &Pose, side: f
         _ => (-u, -u),
     };
     let margin =
-        cone_a.margin(unrotate(pose_a, direction_a)).min(cone_b.margin(unrotate(pose_b, direction_b)));
+        cone_a.margin(pose_a.rotate_back(direction_a)).min(cone_b.margin(pose_b.rotate_back(direction_b)));
     GapState {
         gap: side * (distance - sum),
         normal: u * side,
@@ -180,10 +180,6 @@ fn parts(feature: &Feature) -> (Vec2, f64, &Cone, bool) {
         FeatureShape::Hollow { center, radius, cone } => (*center, *radius, cone, false),
         FeatureShape::Edge { .. } => unreachable!("kind fits shapes"),
     }
-}
-
-fn unrotate(pose: &Pose, d: Vec2) -> Vec2 {
-    Vec2::new(pose.cos * d.x + pose.sin * d.y, -pose.sin * d.x + pose.cos * d.y)
 }
 
 impl GapState {
@@ -219,15 +215,5 @@ impl GapState {
         // Against an edge the second derivative is taken in the edge's turning frame: −2 ω × v appears.
         let turning = if self.edge_first { a.turning(v) } else { b.turning(v) };
         self.normal.dot(bias) - 2.0 * turning * self.normal.dot(velocity.perp())
-    }
-}
-
-impl GapState {
-    /// Distance of the centres of two round features; infinite against an edge.
-    pub fn distance_of_centers(&self) -> f64 {
-        if self.edge_margin.is_finite() {
-            return f64::INFINITY;
-        }
-        if self.curvature == 0.0 { 0.0 } else { 1.0 / self.curvature.abs() }
     }
 }

@@ -98,6 +98,25 @@ impl<'b> Placed<'b> {
         self.joints().filter(|j| j.2).map(|(j, ..)| j.ratio * v[j.coordinate]).sum()
     }
 
+    /// The velocity field of the body and its rate of change, at velocities `v` and accelerations `dv` of the
+    /// coordinates.
+    pub fn field(&self, v: &[f64], dv: &[f64]) -> Field {
+        let mut field = Field::default();
+        for (j, at, turns) in self.joints() {
+            let (rate, change) = (j.ratio * v[j.coordinate], j.ratio * dv[j.coordinate]);
+            if turns {
+                let carried = field.velocity_at(at);
+                field.linear_rate = field.linear_rate - at.perp() * change - carried.perp() * rate;
+                field.turning_rate += change;
+                field.turn(at, rate);
+            } else {
+                field.linear_rate = field.linear_rate + at * change + at.perp() * (rate * field.turning);
+                field.linear = field.linear + at * rate;
+            }
+        }
+        field
+    }
+
     /// Velocity of the body's point now at `p`.
     pub fn velocity(&self, p: Vec2, v: &[f64]) -> Vec2 {
         self.joints().fold(Vec2::default(), |sum, (j, at, turns)| {
@@ -110,7 +129,7 @@ impl<'b> Placed<'b> {
     pub fn motion(&self, p: Vec2, v: &[f64]) -> PointMotion {
         let velocity = self.velocity(p, v);
         let mut bias = Vec2::default();
-        let mut carried = Carrier::default();
+        let mut carried = Field::default();
         for (j, at, turns) in self.joints() {
             let rate = j.ratio * v[j.coordinate];
             if turns {
@@ -126,14 +145,16 @@ impl<'b> Placed<'b> {
     }
 }
 
-/// Velocity field of the joints passed so far: `linear + turning · p^⊥`.
-#[derive(Default)]
-struct Carrier {
-    linear: Vec2,
-    turning: f64,
+/// A velocity field `linear + turning · p^⊥`, with its rate of change at fixed places.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Field {
+    pub linear: Vec2,
+    pub turning: f64,
+    pub linear_rate: Vec2,
+    pub turning_rate: f64,
 }
 
-impl Carrier {
+impl Field {
     fn velocity_at(&self, p: Vec2) -> Vec2 {
         self.linear + p.perp() * self.turning
     }

@@ -78,6 +78,16 @@ impl<S: Scalar> Pose<S> {
         self.rotate(p) + self.shift
     }
 
+    /// The direction whose image is `d`.
+    pub fn rotate_back(&self, d: Vec2<S>) -> Vec2<S> {
+        Vec2::new(self.cos * d.x + self.sin * d.y, self.cos * d.y - self.sin * d.x)
+    }
+
+    /// The point whose image is `p`.
+    pub fn apply_back(&self, p: Vec2<S>) -> Vec2<S> {
+        self.rotate_back(p - self.shift)
+    }
+
     /// `self ∘ inner`: first `inner`, then `self`.
     pub fn then_after(&self, inner: &Self) -> Self {
         Self {
