@@ -20,19 +20,30 @@ impl Mechanism {
     /// The same mechanism with other initial positions and velocities; parts geared to those named follow.
     ///
     /// # Errors
-    /// A part without a joint, and parts that overlap in the new positions.
+    /// A part without a joint or with a drive, positions beyond a stop, parts that overlap in the new positions.
     pub fn starting_at(&self, positions: &[PartValue], velocities: &[PartValue]) -> Result<Self, Error> {
         let mut moved = self.clone();
         for &(part, x) in positions {
+            moved.refuse_prescribed(part, true)?;
             moved.set(part, x, |p| &mut p.position)?;
         }
         for &(part, v) in velocities {
+            moved.refuse_prescribed(part, false)?;
             moved.set(part, v, |p| &mut p.velocity)?;
         }
         if !positions.is_empty() {
+            moved.check_stops()?;
             moved.check_start()?;
         }
         Ok(moved)
+    }
+
+    fn refuse_prescribed(&self, part: usize, position: bool) -> Result<(), Error> {
+        let Some((word, _)) = self.prescribed(part, position) else { return Ok(()) };
+        let what = if position { "position" } else { "velocity" };
+        let name = &self.parts[part].name;
+        let message = format!("the {what} of {name} is prescribed by {word}; expected none for it");
+        Err(self.machine.error(Place::SETTING, message))
     }
 
     fn set(
@@ -46,10 +57,10 @@ impl Mechanism {
         if !value.is_finite() {
             return Err(self
                 .machine
-                .error(place, format!("the value for {name} is {value}, expected a finite number")));
+                .error(place, format!("the value for {name} is {value}; expected a finite number")));
         }
         let Some((s, ratio)) = self.subsystem_of(part) else {
-            let message = format!("{name} has no joint to set, expected a part that turns or slides");
+            let message = format!("{name} has no joint to set; expected a part that turns or slides");
             return Err(self.machine.error(place, message));
         };
         for (member, r) in self.subsystems[s].parts.clone() {
