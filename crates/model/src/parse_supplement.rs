@@ -89,6 +89,9 @@ impl<'a> Reader<'a> {
         let place = self.token.place;
         let first = self.number("the inertia and the friction")?;
         if !self.at_number() {
+            if !(self.token.is_end() || self.token.is_word("spring")) {
+                return Err(self.unexpected("the friction"));
+            }
             return Ok((None, not_negative(first, place, "friction")?));
         }
         let inertia = positive(first, place, "inertia")?;
