@@ -3,7 +3,9 @@
 mod contacts;
 mod drawing;
 mod inspect;
+mod joints;
 mod prediction;
+mod scope;
 mod sentences;
 mod simulation;
 mod words;

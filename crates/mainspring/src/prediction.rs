@@ -1,5 +1,6 @@
 //! `predict`: what the machine will do, and the stretch of motion it was read from.
 
+use crate::scope::check_rigid;
 use crate::sentences::sentences;
 use crate::simulation::{SimulationOptions, SimulationResult};
 use crate::words::clean;
@@ -29,6 +30,7 @@ pub fn predict(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<PredictionResult, Error> {
     let system = Arc::new(mechanism.system()?);
+    check_rigid(mechanism, &system)?;
     let source = system.direct_search();
     let found = mainspring_behavior::predict(&system, &source, options, progress);
     let simulation = SimulationOptions {

@@ -1,6 +1,7 @@
 //! `simulate`: a run to a given time, with its dense motion.
 
 use crate::contacts::contacts_json;
+use crate::scope::check_rigid;
 use crate::words::{by_part, clean};
 use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
 use mainspring_mechanism::{Mechanism, System};
@@ -57,6 +58,7 @@ pub fn simulate(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<SimulationResult, Error> {
     let system = Arc::new(mechanism.system()?);
+    check_rigid(mechanism, &system)?;
     let source = system.direct_search();
     let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
     let start = Instant::now();

@@ -147,11 +147,11 @@ fn slopes(times: &[f64], positions: &[f64]) -> Vec<f64> {
     let length = |i: usize| times[i + 1] - times[i];
     let secant = |i: usize| (positions[i + 1] - positions[i]) / length(i);
     let mut d = vec![0.0; n];
-    for i in 1..n - 1 {
+    for (i, slope) in d.iter_mut().enumerate().take(n - 1).skip(1) {
         let (before, after) = (secant(i - 1), secant(i));
         if before * after > 0.0 {
             let (h, k) = (length(i - 1), length(i));
-            d[i] = (k * before + h * after) / (h + k);
+            *slope = (k * before + h * after) / (h + k);
         }
     }
     for i in 0..n - 1 {
