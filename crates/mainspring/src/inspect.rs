@@ -1,5 +1,6 @@
 //! `inspect`: parts, pairs with their evidence, subsystems, what may touch.
 
+use crate::joints::joints_json;
 use crate::words::{clean, vec3};
 use mainspring_mechanism::{Mechanism, Pair, PairKind, Subsystem};
 use mainspring_model::{Machine, Parameter};
@@ -16,6 +17,7 @@ pub fn inspect_json(m: &Mechanism) -> Value {
         "parts": m.parts.iter().map(|p| &p.name).collect::<Vec<_>>(),
         "frame": name(m.frame),
         "pairs": m.pairs.iter().map(|p| pair(m, p)).collect::<Vec<_>>(),
+        "joints": joints_json(m),
         "subsystems": m.subsystems.iter().map(|s| subsystem(m, s)).collect::<Vec<_>>(),
         "state_variables": m.state_variables(),
         "interactions": interactions,
@@ -27,6 +29,8 @@ pub fn inspect_json(m: &Mechanism) -> Value {
         "mobility": m.mobility,
         "warnings": warnings(m),
         "plane": plane(m),
+        "gravity": vec3(m.gravity),
+        "contact": {"E": m.contact.e, "D": m.contact.d, "M": m.contact.m},
         "units": {"length": null, "time": null, "angle": "rad"},
     })
 }

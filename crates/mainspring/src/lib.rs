@@ -3,8 +3,10 @@
 mod contacts;
 mod drawing;
 mod inspect;
+mod joints;
 mod options;
 mod prediction;
+mod scope;
 mod sentences;
 mod simulation;
 mod words;

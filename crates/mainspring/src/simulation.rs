@@ -2,6 +2,7 @@
 
 use crate::contacts::contacts_json;
 use crate::options::check_simulation;
+use crate::scope::check_rigid;
 use crate::words::{by_part, clean};
 use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
 use mainspring_mechanism::{Mechanism, System};
@@ -59,6 +60,7 @@ pub fn simulate(
 ) -> Result<SimulationResult, Error> {
     check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
+    check_rigid(mechanism, &system)?;
     let source = system.direct_search();
     let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
     let start = Instant::now();

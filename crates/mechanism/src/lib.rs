@@ -19,11 +19,20 @@ pub use source::{Candidate, ContactId, ContactSource, DirectSearch};
 pub use system::{Body, Coordinate, Joint, Motion, Pose};
 pub use tree::{FeatureTree, Node};
 
+// Forces: drives, friction, stops, masses on chains, equations of motion.
+mod drive;
+mod equations;
+mod forces;
+
+pub use drive::{Drive, Driven, Table};
+pub use equations::{Coupled, Equations, EquationsJacobian};
+pub use forces::{ContactLaw, Forces, Mass, Stop};
+
 // Kinematics: from shapes to pairs, mobility and subsystems.
 mod kinematics;
 
 pub use kinematics::{
-    AxisLine, Bounds, ClosedChain, CompileOptions, Dropped, Evidence, EvidenceKind, Freedom, JointSpring,
-    Mechanism, NearMiss, Pair, PairKind, Part, PartValue, Subsystem, Symmetry, SymmetryType, Warning,
-    WorkingPlane, canonical,
+    AxisLine, Bounds, ClosedChain, CompileOptions, Dropped, Evidence, EvidenceKind, Freedom, JointDrive,
+    JointForces, JointSpring, Mechanism, NearMiss, Pair, PairKind, Part, PartMass, PartValue, Subsystem,
+    Symmetry, SymmetryType, Warning, WorkingPlane, canonical,
 };

@@ -89,19 +89,6 @@ fn missing_inertia_is_refused_by_simulation_only() {
     assert!(refusal(&m).contains("inertia of lever"));
 }
 
-/// A pawl on a turning cam: found and told, not simulated.
-#[test]
-fn carried_parts_are_refused_by_simulation_only() {
-    let defs = "cam = ((cyl(d=8, h=1)) un (cyl(d=1, h=2) at (movx=3))) dif cyl(d=1, h=1)
-pawl = (cyl(d=2, h=0.8) at (movx=3, movz=1.1)) dif (cyl(d=1, h=0.8) at (movx=3, movz=1.1))
-frame = (cyl(d=1, h=3) at (movz=-1)) un (blo(x=1, y=1, z=1) at (movz=-2))
-attr cam : density = 1\nattr pawl : density = 1";
-    let m = compile(&machine(defs, &["cam", "pawl", "frame"]));
-    assert_eq!(kinds(&m), ["revolute/cylindrical cam-pawl", "revolute/cylindrical cam-frame"]);
-    assert_eq!((m.parts[1].carrier, m.mobility), (Some(0), 2));
-    assert!(refusal(&m).contains("pawl has no pair with the frame, only one with cam"));
-}
-
 #[test]
 fn crossed_axes_are_inspected_but_not_simulated() {
     let defs = "a = cyl(d=2, h=1) dif cyl(d=1, h=1)\nb = (cyl(d=2, h=1) dif cyl(d=1, h=1)) at (degx=37, movx=9)

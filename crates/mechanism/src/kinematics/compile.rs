@@ -4,7 +4,9 @@ use super::analysis::{Found, Shapes, analyse};
 use super::bounds::Bounds;
 use super::fits::Solid;
 use super::gears::{GearData, Member, is_internal};
+use super::joint_forces::JointForces;
 use super::lower::{RELATIVE_TOLERANCE, solid};
+use super::masses::PartMass;
 use super::mechanism::{CompileOptions, Mechanism, Part, Warning};
 use super::near_miss::{Miss, NearMiss};
 use super::patch::Scene;
@@ -17,7 +19,8 @@ use super::surface::lateral;
 use super::symmetry::symmetries;
 use super::words;
 use super::work::Work;
-use mainspring_geometry::{Csg, Outline, OutlineError, OutlineRecipe, Primitive};
+use crate::forces::ContactLaw;
+use mainspring_geometry::{Csg, Outline, OutlineError, OutlineRecipe, Primitive, Vec3};
 use mainspring_model::{Error, Machine, Values};
 use std::sync::Arc;
 
@@ -101,8 +104,10 @@ fn assemble(
                 carrier: holds[i].map(|h| h.carrier),
                 inertia: None,
                 inertia_from_density: false,
+                mass: PartMass::default(),
                 friction: 0.0,
                 spring: None,
+                forces: JointForces::default(),
                 position: 0.0,
                 velocity: 0.0,
                 outline,
@@ -134,6 +139,8 @@ fn assemble(
         closed_chains,
         mobility,
         plane,
+        gravity: Vec3::default(),
+        contact: ContactLaw::default(),
         warnings,
         size,
         primitives,

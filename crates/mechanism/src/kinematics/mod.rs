@@ -1,5 +1,6 @@
 //! Kinematics: from the shapes of the parts to pairs, mobility and subsystems (Gelsey 1995, Section 2.1).
 
+mod acting;
 mod analysis;
 mod axial;
 mod bounds;
@@ -9,8 +10,10 @@ mod cylinder_fit;
 mod fit;
 mod fits;
 mod gears;
+mod joint_forces;
 mod linear;
 mod lower;
+mod masses;
 mod mechanism;
 mod mobility;
 mod near_miss;
@@ -34,6 +37,8 @@ mod words;
 mod work;
 
 pub use bounds::Bounds;
+pub use joint_forces::{JointDrive, JointForces};
+pub use masses::PartMass;
 pub use mechanism::{CompileOptions, JointSpring, Mechanism, Part, Warning};
 pub use mobility::ClosedChain;
 pub use near_miss::NearMiss;

@@ -5,7 +5,7 @@ use super::pair::PairKind;
 use super::subsystems::Subsystem;
 use super::surface::{parallel, perpendicular};
 use crate::interaction::{Exclusion, System};
-use crate::system::{Body, Coordinate, Joint, Motion};
+use crate::system::{Body, Coordinate, Motion};
 use mainspring_geometry::Vec2;
 use mainspring_model::Error;
 
@@ -13,21 +13,31 @@ impl Mechanism {
     /// Everything contact and motion need.
     ///
     /// # Errors
-    /// As [`Mechanism::coordinates`] and [`Mechanism::bodies`].
+    /// As [`Mechanism::coordinates`], [`Mechanism::forces`] and [`Mechanism::bodies`].
     pub fn system(&self) -> Result<System, Error> {
-        let (coordinates, bodies) = (self.coordinates()?, self.bodies()?);
-        Ok(System::new(coordinates, bodies, &self.exclusions(), self.size))
+        let (coordinates, forces, bodies) = (self.coordinates()?, self.forces()?, self.bodies()?);
+        Ok(System::new(coordinates, bodies, &self.exclusions(), self.size).with_forces(forces))
     }
 
-    /// One coordinate for each subsystem, with inertia, friction and springs seen at its root.
+    /// One coordinate for each subsystem, with inertia, friction, springs and constant forces seen at its root.
+    /// Parts on chains of two joints or more have their inertia in [`Mechanism::forces`].
     ///
     /// # Errors
-    /// What inspection allows and simulation cannot do: a part without a pair with the frame, closed chains, pairs
-    /// with two freedoms, motion that is not planar, gears that lock each other, an inertia that is not known.
+    /// What inspection allows and simulation cannot do: a part that hangs on nothing, closed chains, chains of more
+    /// than [`crate::MAX_CHAIN`] joints, pairs with two freedoms, motion that is not planar, gears that lock each other or
+    /// are carried differently, an inertia that is not known.
     pub fn coordinates(&self) -> Result<Vec<Coordinate>, Error> {
         self.check_motion()?;
         (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_inertia(p))?;
-        self.subsystems.iter().map(|s| self.finite(s, self.coordinate(s))).collect()
+        let mut coordinates: Vec<Coordinate> = self.subsystems.iter().map(|s| self.coordinate(s)).collect();
+        for part in 0..self.parts.len() {
+            let chain = self.chain(part);
+            let Some(inertia) = self.constant_inertia(part, &chain)? else { continue };
+            let c = &mut coordinates[chain[0].coordinate];
+            c.inertia += inertia;
+            c.force += self.constant_gravity(part, &chain);
+        }
+        self.check_finite(coordinates)
     }
 
     /// The same machine for questions of reach alone, which inertias, friction and springs do not answer.
@@ -40,11 +50,12 @@ impl Mechanism {
     /// Can every part move in the plane, with one freedom of its own?
     fn check_motion(&self) -> Result<(), Error> {
         self.check_planar()?;
+        self.check_carriers()?;
         self.check_chains()?;
         (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_joint(p))
     }
 
-    fn fail<T>(&self, part: usize, message: String) -> Result<T, Error> {
+    pub(crate) fn fail<T>(&self, part: usize, message: String) -> Result<T, Error> {
         Err(self.machine.error(self.parts[part].place, message))
     }
 
@@ -90,16 +101,9 @@ impl Mechanism {
 
     fn check_joint(&self, i: usize) -> Result<(), Error> {
         let part = &self.parts[i];
-        let (Some(_), Some(carrier)) = (part.joint, part.carrier) else {
+        if part.joint.is_none() {
             let message =
                 format!("{} has no pair with the frame; expected one it turns or slides in", part.name);
-            return self.fail(i, message);
-        };
-        if !self.stands(carrier) {
-            let message = format!(
-                "{} has no pair with the frame, only one with {}; expected one it turns or slides in",
-                part.name, self.parts[carrier].name
-            );
             return self.fail(i, message);
         }
         Ok(())
@@ -123,23 +127,12 @@ impl Mechanism {
         }
     }
 
-    /// Is it the frame, or fixed to it?
-    fn stands(&self, part: usize) -> bool {
-        let mut at = part;
-        for _ in 0..self.parts.len() {
-            match (self.parts[at].joint, self.parts[at].carrier) {
-                (Some(j), Some(c)) if self.pairs[j].kind == PairKind::Fixed => at = c,
-                _ => break,
-            }
-        }
-        at == self.frame
-    }
-
+    /// Without its inertia: friction, springs, constant torques and forces, start.
     fn coordinate(&self, s: &Subsystem) -> Coordinate {
         let root = &self.parts[s.root];
         let mut c = Coordinate {
             name: root.name.clone(),
-            inertia: s.inertia.unwrap_or(0.0),
+            inertia: 0.0,
             damping: 0.0,
             stiffness: 0.0,
             force: 0.0,
@@ -150,6 +143,7 @@ impl Mechanism {
         for &(part, r) in &s.parts {
             let part = &self.parts[part];
             c.damping += part.friction * r * r;
+            c.force += part.forces.torque * r;
             if let Some(spring) = part.spring {
                 let k = spring.constant;
                 c.stiffness += k * r * r;
@@ -160,14 +154,17 @@ impl Mechanism {
         c
     }
 
-    fn finite(&self, s: &Subsystem, c: Coordinate) -> Result<Coordinate, Error> {
-        if c.inertia > 0.0 && [c.inertia, c.stiffness, c.force, c.damping].iter().all(|x| x.is_finite()) {
-            return Ok(c);
+    fn check_finite(&self, coordinates: Vec<Coordinate>) -> Result<Vec<Coordinate>, Error> {
+        for (c, s) in coordinates.iter().zip(&self.subsystems) {
+            if ![c.inertia, c.stiffness, c.force, c.damping].iter().all(|x| x.is_finite()) {
+                let message = format!(
+                    "the values of {} overflow; expected finite inertia, friction and spring",
+                    c.name
+                );
+                return self.fail(s.root, message);
+            }
         }
-        self.fail(
-            s.root,
-            format!("the values of {} overflow; expected finite inertia, friction and spring", c.name),
-        )
+        Ok(coordinates)
     }
 
     /// The parts as contact sees them, in the working plane, in the order of [`Mechanism::parts`].
@@ -182,19 +179,11 @@ impl Mechanism {
     fn body(&self, i: usize) -> Body {
         let part = &self.parts[i];
         let outline = part.outline.clone().unwrap_or_default();
-        let (mut chain, mut at) = (Vec::new(), i);
-        for _ in 0..self.parts.len() {
-            let (Some(joint), Some(carrier)) = (self.parts[at].joint, self.parts[at].carrier) else { break };
-            if let Some((coordinate, ratio)) = self.subsystem_of(at) {
-                chain.push(Joint { coordinate, ratio, motion: self.motion(joint) });
-            }
-            at = carrier;
-        }
-        chain.reverse();
+        let chain = self.chain(i);
         Body { name: part.name.clone(), chain, outline }
     }
 
-    fn motion(&self, joint: usize) -> Motion {
+    pub(crate) fn motion(&self, joint: usize) -> Motion {
         let pair = &self.pairs[joint];
         let plane = &self.plane.plane_from_machine;
         if pair.kind.slides() {

@@ -26,13 +26,14 @@ impl Mechanism {
     /// The same mechanism with other initial positions and velocities; parts geared to those named follow.
     ///
     /// # Errors
-    /// A part without a joint, values that contradict each other through gears, and parts that overlap in the new
-    /// positions.
+    /// A part without a joint or with a drive, values that contradict each other through gears, positions beyond a
+    /// stop, parts that overlap in the new positions.
     pub fn starting_at(&self, positions: &[PartValue], velocities: &[PartValue]) -> Result<Self, Error> {
         let mut moved = self.clone();
         moved.set_all(positions, "position", |p| &mut p.position)?;
         moved.set_all(velocities, "velocity", |p| &mut p.velocity)?;
         if !positions.is_empty() {
+            moved.check_stops()?;
             moved.check_start()?;
         }
         Ok(moved)
@@ -40,6 +41,7 @@ impl Mechanism {
 
     fn set_all(&mut self, values: &[PartValue], what: &str, field: Field) -> Result<(), Error> {
         for &(part, value) in values {
+            self.refuse_prescribed(part, what)?;
             self.set(part, value, what, field)?;
         }
         // What was set last moved the gears in mesh with it; the others must agree.
@@ -52,6 +54,13 @@ impl Mechanism {
             }
         }
         Ok(())
+    }
+
+    fn refuse_prescribed(&self, part: usize, what: &str) -> Result<(), Error> {
+        let Some((word, _)) = self.prescribed(part, what == "position") else { return Ok(()) };
+        let name = &self.parts[part].name;
+        let message = format!("the {what} of {name} is prescribed by {word}; expected none for it");
+        Err(option_error(what, message))
     }
 
     fn set(&mut self, part: usize, value: f64, what: &str, field: Field) -> Result<(), Error> {
