@@ -4,7 +4,7 @@
 //! least `(x − x₀)ᵀ M (x − x₀)` subject to `G x + c ≥ 0`. Active-set method of Lawson and Hanson (Solving Least Squares
 //! Problems, 1974, ch. 23) on the dual; columns that depend on active ones are exchanged, never added.
 
-use crate::linear::Cholesky;
+use crate::linear::{Cholesky, Small};
 
 /// A solution; `w` and `lambda` have one entry a contact.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,7 +53,7 @@ enum Entry {
 fn enter(a: &[f64], b: &[f64], entering: usize, s: &mut Solution) -> Entry {
     let n = b.len();
     if let Some(factor) = factor(a, n, &s.active) {
-        let column: Vec<f64> = s.active.iter().map(|&i| a[i * n + entering]).collect();
+        let column: Small<f64> = s.active.iter().map(|&i| a[i * n + entering]).collect();
         let response = factor.solve(&column);
         let rest: f64 =
             a[entering * n + entering] - response.iter().zip(&column).map(|(x, y)| x * y).sum::<f64>();
@@ -97,7 +97,7 @@ fn descend(a: &[f64], b: &[f64], s: &mut Solution) -> bool {
     let n = b.len();
     for _ in 0..=n {
         let Some(factor) = factor(a, n, &s.active) else { return false };
-        let right: Vec<f64> = s.active.iter().map(|&i| -b[i]).collect();
+        let right: Small<f64> = s.active.iter().map(|&i| -b[i]).collect();
         let target = factor.solve(&right);
         let step = |i: usize, t: f64| if t < 0.0 { s.lambda[i] / (s.lambda[i] - t) } else { 1.0 };
         let limit = s.active.iter().zip(&target).map(|(&i, &t)| step(i, t)).fold(1.0, f64::min);

@@ -4,7 +4,7 @@
 //! dead points need no care; after each step positions and velocities are projected back onto g = 0, G q̇ = 0.
 
 use crate::flight::Bounds;
-use crate::linear::{Cholesky, Small};
+use crate::linear::{Small, factorize, solve_factorized};
 use crate::path::Path;
 use crate::runge_kutta::{Equations, Polynomial, Step};
 use crate::settle::{add_forces, inverse_inertia};
@@ -58,37 +58,41 @@ impl Component {
         Self { coordinates, contacts, bodies, sides, step: Step::default() }
     }
 
-    /// The bodies of the component's contacts at `q`.
-    pub fn place<'a>(&self, world: &World<'a>, q: &[f64]) -> Small<Placed<'a>> {
-        self.bodies.iter().map(|&b| Placed::new(&world.system.bodies[b], q)).collect()
-    }
-
-    /// Evaluates the component's contacts between its placed bodies.
-    pub fn touches<'p>(&self, world: &mut World, placed: &'p [Placed<'p>]) -> Small<Touch<'p>> {
-        let pair = |&(a, b): &(usize, usize)| (&placed[a], &placed[b]);
-        self.contacts.iter().zip(&self.sides).map(|(c, sides)| world.touch(c, pair(sides))).collect()
-    }
-
-    /// Forces of the contacts, and accelerations of all coordinates they touch added to `acceleration`. None if
-    /// the contacts are not independent here.
-    pub fn forces_of(
-        &self,
-        world: &World,
-        touches: &[Touch],
-        q: &[f64],
-        v: &[f64],
-        acceleration: &mut [f64],
-    ) -> Option<Small<f64>> {
-        let coordinates = &world.system.coordinates;
-        for &i in &self.coordinates {
-            acceleration[i] = coordinates[i].free_acceleration(q[i], v[i]);
+    /// Evaluates each contact at `q` in turn.
+    fn each_touch(&self, world: &mut World, q: &[f64], mut each: impl FnMut(&Touch)) {
+        let system = world.system;
+        let placed: Small<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
+        for (contact, &(a, b)) in self.contacts.iter().zip(&self.sides) {
+            let touch = world.touch(contact, (&placed[a], &placed[b]));
+            each(&touch);
         }
-        let rows: Small<Row> = touches.iter().map(Touch::row).collect();
-        let mut lambda: Small<f64> =
-            touches.iter().zip(&rows).map(|(t, row)| -(row.dot(acceleration) + t.bias(v))).collect();
-        let factor = Cholesky::new(inverse_inertia(world.system, &rows), rows.len())?;
-        factor.solve_in_place(&mut lambda);
-        add_forces(world.system, &rows, &lambda, acceleration);
+    }
+
+    /// Forces of the contacts at `(q, v)`, and the accelerations of all coordinates they touch; `each` is told every
+    /// contact. None if the contacts are not independent here.
+    pub fn forces(
+        &self,
+        world: &mut World,
+        (q, v): (&[f64], &[f64]),
+        acceleration: &mut [f64],
+        mut each: impl FnMut(&Touch),
+    ) -> Option<Small<f64>> {
+        let system = world.system;
+        for &i in &self.coordinates {
+            acceleration[i] = system.coordinates[i].free_acceleration(q[i], v[i]);
+        }
+        let (mut rows, mut lambda) = (Small::<Row>::new(), Small::<f64>::new());
+        self.each_touch(world, q, |touch| {
+            rows.push(touch.row());
+            lambda.push(-(rows[rows.len() - 1].dot(acceleration) + touch.bias(v)));
+            each(touch);
+        });
+        let mut matrix = inverse_inertia(system, &rows);
+        if !factorize(&mut matrix, rows.len()) {
+            return None;
+        }
+        solve_factorized(&matrix, &mut lambda);
+        add_forces(system, &rows, &lambda, acceleration);
         Some(lambda)
     }
 
@@ -103,17 +107,20 @@ impl Component {
         tolerance: &Tolerance,
     ) -> Option<Advance> {
         let n = self.coordinates.len();
-        let y: Vec<f64> =
+        let y: Small<f64, 16> =
             self.coordinates.iter().map(|&i| q[i]).chain(self.coordinates.iter().map(|&i| v[i])).collect();
         let mut step = std::mem::take(&mut self.step);
         step.resize(2 * n);
         let mut h = h.min(longest);
+        let mut equations = ComponentEquations::new(self, world, q, v);
+        let start: Small<f64, 8> = step.begin(&mut equations, t, &y)[n..].into();
+        let singular = equations.singular;
         let result = loop {
             if h < tolerance.shortest {
                 break None;
             }
-            let mut equations = ComponentEquations::new(self, world, q, v);
-            let scale = self.scale(&equations.start_acceleration(t, &y), h, tolerance);
+            equations.singular = singular;
+            let scale = self.scale(&start, h, tolerance);
             let error = step.attempt(&mut equations, t, &y, h, &scale);
             let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
@@ -127,7 +134,7 @@ impl Component {
         result
     }
 
-    fn scale(&self, acceleration: &[f64], h: f64, tolerance: &Tolerance) -> Vec<f64> {
+    fn scale(&self, acceleration: &[f64], h: f64, tolerance: &Tolerance) -> Small<f64, 16> {
         let positions = self.coordinates.iter().map(|&i| tolerance.relative * tolerance.positions[i]);
         let speeds =
             self.coordinates.iter().zip(acceleration).map(|(&i, a)| {
@@ -150,20 +157,26 @@ impl Component {
 
     /// Moves `q` onto g = 0 and `v` onto G q̇ = 0 along M⁻¹ Gᵀ: the nearest state in the metric of inertia.
     pub fn project(&self, world: &mut World, q: &mut [f64], v: &mut [f64]) {
+        let system = world.system;
         for _ in 0..3 {
-            let placed = self.place(world, q);
-            let touches = self.touches(world, &placed);
-            let rows: Small<Row> = touches.iter().map(Touch::row).collect();
-            let Some(factor) = Cholesky::new(inverse_inertia(world.system, &rows), rows.len()) else {
-                return;
-            };
-            let gaps: Vec<f64> = touches.iter().map(|t| -t.state.gap).collect();
-            let rates: Vec<f64> = touches.iter().map(|t| -t.rate(v)).collect();
-            add_forces(world.system, &rows, &factor.solve(&rates), v);
-            if gaps.iter().all(|g| g.abs() <= 0.1 * crate::search::CLOSED * world.system.size) {
+            let (mut rows, mut gaps, mut rates) =
+                (Small::<Row>::new(), Small::<f64>::new(), Small::<f64>::new());
+            self.each_touch(world, q, |touch| {
+                rows.push(touch.row());
+                gaps.push(-touch.state.gap);
+                rates.push(-touch.rate(v));
+            });
+            let mut matrix = inverse_inertia(system, &rows);
+            if !factorize(&mut matrix, rows.len()) {
                 return;
             }
-            add_forces(world.system, &rows, &factor.solve(&gaps), q);
+            solve_factorized(&matrix, &mut rates);
+            add_forces(system, &rows, &rates, v);
+            if gaps.iter().all(|g| g.abs() <= 0.1 * crate::search::CLOSED * system.size) {
+                return;
+            }
+            solve_factorized(&matrix, &mut gaps);
+            add_forces(system, &rows, &gaps, q);
         }
     }
 }
@@ -171,9 +184,9 @@ impl Component {
 struct ComponentEquations<'c, 'w> {
     component: &'c Component,
     world: &'c mut World<'w>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
+    q: Small<f64, 8>,
+    v: Small<f64, 8>,
+    acceleration: Small<f64, 8>,
     singular: bool,
 }
 
@@ -182,17 +195,11 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
         Self {
             component,
             world,
-            q: q.to_vec(),
-            v: v.to_vec(),
-            acceleration: vec![0.0; q.len()],
+            q: q.into(),
+            v: v.into(),
+            acceleration: smallvec::smallvec![0.0; q.len()],
             singular: false,
         }
-    }
-
-    fn start_acceleration(&mut self, t: f64, y: &[f64]) -> Vec<f64> {
-        let mut dy = vec![0.0; y.len()];
-        self.derivative(t, y, &mut dy);
-        dy.split_off(y.len() / 2)
     }
 }
 
@@ -202,10 +209,9 @@ impl Equations for ComponentEquations<'_, '_> {
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
-        let placed = self.component.place(self.world, &self.q);
-        let touches = self.component.touches(self.world, &placed);
-        let (q, v, acceleration) = (&self.q, &self.v, &mut self.acceleration);
-        self.singular |= self.component.forces_of(self.world, &touches, q, v, acceleration).is_none();
+        let state = (self.q.as_slice(), self.v.as_slice());
+        let forces = self.component.forces(self.world, state, &mut self.acceleration, |_| {});
+        self.singular |= forces.is_none();
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];
             dy[n + k] = self.acceleration[i];

@@ -17,6 +17,7 @@ mod pace;
 mod path;
 mod place;
 mod ranges;
+mod root;
 mod runge_kutta;
 mod search;
 mod settle;

@@ -8,14 +8,15 @@ use crate::pace::{GapPace, Pace};
 use crate::search::{BAND, CLOSED, MOST_STEPS};
 use crate::sight::Sight;
 use crate::world::{Touch, World};
-use mainspring_mechanism::{Approach, Candidate, Relative};
+use mainspring_mechanism::{Approach, Candidate, Feature, Relative, approach};
 
 /// Decides whether a contact that comes to zero is one: on its features, and standing for its place.
 pub type Real<'r> = &'r mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool;
 
 /// The march along one contact of an interaction, from look to look.
-pub struct March {
+pub struct March<'a> {
     pub candidate: Candidate,
+    features: (&'a Feature, &'a Feature),
     pace: Pace,
     /// Bounds for the gap: of the whole stretch against an edge, of the next step between centres.
     bounds: Option<GapPace>,
@@ -28,16 +29,16 @@ pub struct March {
     looks: usize,
 }
 
-impl March {
+impl<'a> March<'a> {
     /// From time `t`, with bounds of motion until the end of the stretch.
-    pub fn new(candidate: &Candidate, pace: Pace, floor: Option<f64>, t: f64) -> Self {
-        let waiting = floor.is_some();
-        Self { candidate: *candidate, pace, bounds: None, floor, waiting, clear: t, looks: 0 }
+    pub fn new(world: &World<'a>, candidate: &Candidate, pace: Pace, floor: Option<f64>, t: f64) -> Self {
+        let (features, waiting) = (world.features(candidate), floor.is_some());
+        Self { candidate: *candidate, features, pace, bounds: None, floor, waiting, clear: t, looks: 0 }
     }
 
     /// Looks at the contact at the time in sight and moves `clear` on. Returns the time at which the contact closes,
     /// if that is found.
-    pub fn look<'a>(
+    pub fn look(
         &mut self,
         world: &mut World<'a>,
         sight: &mut Sight<'_, '_, 'a>,
@@ -51,7 +52,7 @@ impl March {
             // Bound met: hand the place to the resolver rather than step over it.
             return Some(t);
         }
-        let seen = world.approach(&self.candidate, relative);
+        let seen = self.approach(world, relative);
         let gap = seen.gap - self.floor.unwrap_or(0.0);
         // Late in a run the clock's own grain moves the gap by more than `CLOSED`.
         let closed = CLOSED * world.system.size + 8.0 * f64::EPSILON * t.abs() * seen.rate.abs();
@@ -60,7 +61,7 @@ impl March {
         if touching && self.is_real(world, sight, real) {
             return Some(t);
         }
-        let (a, b) = world.features(&self.candidate);
+        let (a, b) = self.features;
         let radius = a.shape.radius().max(b.shape.radius());
         let step = self.safe_step(&seen, gap, closed, (end - t, radius), world.system.size);
         if gap.abs() <= closed && !touching && (seen.rate < 0.0 || step < 1e-3 * (end - t)) {
@@ -72,6 +73,11 @@ impl March {
         }
         self.clear = t + step.max(2.0 * f64::EPSILON * t.abs());
         None
+    }
+
+    fn approach(&self, world: &mut World, relative: &Relative) -> Approach {
+        world.evaluations += 1;
+        approach(self.candidate.kind, self.features.0, self.features.1, relative)
     }
 
     fn is_real(&self, world: &mut World, sight: &Sight, real: Real) -> bool {
@@ -116,12 +122,7 @@ impl March {
 
     /// After a release the gap, its rate and its acceleration are all near zero: goes on to the first sample with
     /// a positive gap. False if the gap closes again first (then at the time told) or never opens before the end.
-    fn wait_for_gap<'a>(
-        &self,
-        world: &mut World<'a>,
-        sight: &mut Sight<'_, '_, 'a>,
-        end: f64,
-    ) -> (bool, f64) {
+    fn wait_for_gap(&self, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>, end: f64) -> (bool, f64) {
         let (size, start) = (world.system.size, sight.t);
         let open = 8.0 * CLOSED * size;
         // Samples from the end backwards: in the usual case all are open and the first interval is short.
@@ -146,7 +147,7 @@ impl March {
 
     /// The time at which the gap falls to zero for good after a release at `start`: `dt` later it is closed to
     /// rounding, four times that later negative.
-    fn closes_between<'a>(
+    fn closes_between(
         &self,
         world: &mut World<'a>,
         sight: &mut Sight<'_, '_, 'a>,
@@ -175,9 +176,9 @@ impl March {
         below
     }
 
-    fn gap_at<'a>(&self, t: f64, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>) -> f64 {
+    fn gap_at(&self, t: f64, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>) -> f64 {
         sight.move_to(world, t);
-        world.approach(&self.candidate, &sight.relative()).gap - self.floor.unwrap_or(0.0)
+        self.approach(world, &sight.relative()).gap - self.floor.unwrap_or(0.0)
     }
 
     fn margin(&self, world: &mut World, sight: &Sight) -> f64 {

@@ -5,7 +5,9 @@
 //! half its length has none.
 
 use crate::flight::Bounds;
+use crate::linear::Small;
 use crate::path::Path;
+use crate::root::narrow;
 use mainspring_mechanism::System;
 
 /// A local minimum of the kinetic energy.
@@ -53,6 +55,8 @@ struct Sample {
     power: f64,
 }
 
+type Samples = Small<Sample, 16>;
+
 impl MinimumFinder {
     /// Follows one stretch without events inside.
     pub fn stretch(&mut self, system: &System, paths: &[Path], from: f64, to: f64) {
@@ -60,7 +64,7 @@ impl MinimumFinder {
             return;
         }
         let motion = Motion { system, paths };
-        let mut samples = vec![motion.sample(from)];
+        let mut samples: Samples = smallvec::smallvec![motion.sample(from)];
         motion.subdivide(from, to, 0, &mut samples);
         samples.push(motion.sample(to));
         for pair in samples.windows(2) {
@@ -121,7 +125,7 @@ impl MinimumFinder {
 impl Motion<'_> {
     fn sample(&self, t: f64) -> Sample {
         let (mut energy, mut power) = (0.0, 0.0);
-        for (c, path) in self.system.coordinates.iter().zip(self.paths) {
+        for (c, path) in self.system.coordinates.iter().zip(self.paths).filter(|(_, path)| !path.is_rest()) {
             let (state, acceleration) = path.with_acceleration(t);
             energy += 0.5 * c.inertia * state.v * state.v;
             power += c.inertia * state.v * acceleration;
@@ -139,7 +143,7 @@ impl Motion<'_> {
     }
 
     /// Adds samples inside (from, to) until the power changes sign at most once between neighbours.
-    fn subdivide(&self, from: f64, to: f64, depth: u32, samples: &mut Vec<Sample>) {
+    fn subdivide(&self, from: f64, to: f64, depth: u32, samples: &mut Samples) {
         let middle = self.sample(0.5 * (from + to));
         let half = 0.5 * (to - from);
         let certain = middle.power.abs() > self.bend(from, to - from) * half;
@@ -162,32 +166,16 @@ impl Motion<'_> {
     /// Whether the power changes too little over the stretch for a second sign change to matter: its rate keeps
     /// one sign at five places.
     fn is_monotone(&self, from: f64, to: f64) -> bool {
-        let powers: Vec<f64> =
+        let powers: Small<f64, 8> =
             (0..=4).map(|k| self.sample(from + (to - from) * f64::from(k) / 4.0).power).collect();
         // Where powers cancel (a frictionless contact) only rounding is left, and it has no shape.
         let noise = 1e-13 * (2.0 * self.sample(from).energy * self.bend(from, to - from)).sqrt();
         powers.windows(2).all(|p| p[1] >= p[0] - noise) || powers.windows(2).all(|p| p[1] <= p[0] + noise)
     }
 
-    /// The zero of the power between a sample where it is negative and one where it is positive.
-    fn zero(&self, negative: Sample, positive: Sample) -> f64 {
-        let (mut a, mut b) = (negative, positive);
-        for _ in 0..200 {
-            let linear = a.t - a.power * (b.t - a.t) / (b.power - a.power);
-            let middle = 0.5 * (a.t + b.t);
-            // Secant steps, with a bisection whenever they would shrink the bracket slowly.
-            for t in [linear, middle] {
-                let s = self.sample(t);
-                if s.power < 0.0 {
-                    a = s;
-                } else {
-                    b = s;
-                }
-            }
-            if (b.t - a.t).abs() <= 4.0 * f64::EPSILON * (1.0 + b.t.abs()) {
-                break;
-            }
-        }
-        if a.energy <= b.energy { a.t } else { b.t }
+    /// The zero of the power between two samples of unlike signs.
+    fn zero(&self, from: Sample, to: Sample) -> f64 {
+        let (a, b) = narrow(|t| self.sample(t).power, (from.t, from.power), (to.t, to.power));
+        if a.1.abs() <= b.1.abs() { a.0 } else { b.0 }
     }
 }

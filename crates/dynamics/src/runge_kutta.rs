@@ -27,10 +27,16 @@ impl Step {
         self.scratch.resize(n, 0.0);
     }
 
-    /// Tries a step; returns the error relative to `scale` (accept when ≤ 1).
-    pub fn attempt(&mut self, f: &mut impl Equations, t: f64, y: &[f64], h: f64, scale: &[f64]) -> f64 {
+    /// Evaluates the derivative at the start, for any number of attempts from there.
+    pub fn begin(&mut self, f: &mut impl Equations, t: f64, y: &[f64]) -> &[f64] {
         let n = self.n;
         f.derivative(t, y, &mut self.k[..n]);
+        &self.k[..n]
+    }
+
+    /// Tries a step after `begin`; returns the error relative to `scale` (accept when ≤ 1).
+    pub fn attempt(&mut self, f: &mut impl Equations, t: f64, y: &[f64], h: f64, scale: &[f64]) -> f64 {
+        let n = self.n;
         for stage in 1..=STAGES {
             self.stage(f, stage, t, y, h);
         }
@@ -50,9 +56,14 @@ impl Step {
 
     fn stage(&mut self, f: &mut impl Equations, stage: usize, t: f64, y: &[f64], h: f64) {
         let n = self.n;
-        for (i, start) in y.iter().enumerate() {
-            let sum: f64 = A[stage].iter().map(|&(s, a)| a * self.k[s * n + i]).sum();
-            self.scratch[i] = start + h * sum;
+        self.scratch.fill(0.0);
+        for &(s, a) in A[stage] {
+            for (sum, k) in self.scratch.iter_mut().zip(&self.k[s * n..(s + 1) * n]) {
+                *sum += a * k;
+            }
+        }
+        for (sum, start) in self.scratch.iter_mut().zip(y) {
+            *sum = start + h * *sum;
         }
         let row = stage * n..(stage + 1) * n;
         f.derivative(t + C[stage] * h, &self.scratch, &mut self.k[row]);
@@ -171,6 +182,7 @@ mod tests {
     fn error(h: f64) -> (f64, f64) {
         let (y, mut step) = ([0.0, 1.0], Step::default());
         step.resize(2);
+        step.begin(&mut Oscillator, 0.0, &y);
         step.attempt(&mut Oscillator, 0.0, &y, h, &[1.0, 1.0]);
         let end = (step.end[0] - h.sin()).abs();
         let dense = step.dense(&mut Oscillator, 0.0, &y, h);
@@ -191,6 +203,7 @@ mod tests {
         for h in [0.1, 0.8, 2.0] {
             let (y, mut step) = ([0.3, 1.0], Step::default());
             step.resize(2);
+            step.begin(&mut Oscillator, 0.0, &y);
             step.attempt(&mut Oscillator, 0.0, &y, h, &[1.0, 1.0]);
             for p in step.dense(&mut Oscillator, 0.0, &y, h) {
                 let [value, slope, second] = p.bounds();

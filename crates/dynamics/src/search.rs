@@ -95,7 +95,8 @@ pub fn first_closing(
 /// A time in which no feature moves further than a twentieth of the machine's size, by present speeds.
 fn first_piece(world: &World, stretch: &Stretch, moving: &[usize]) -> f64 {
     let n = stretch.paths.len();
-    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    let (mut q, mut v): (Small<f64, 8>, Small<f64, 8>) =
+        (smallvec::smallvec![0.0; n], smallvec::smallvec![0.0; n]);
     let far = 0.05 * world.system.size;
     let time = |world: &World, i: usize, q: &mut [f64], v: &mut [f64]| {
         set_state(&world.arms[i], stretch, stretch.from, q, v);
@@ -137,23 +138,24 @@ fn look_along(
 }
 
 /// The contacts of an interaction that may close from the time in sight to `end`.
-fn within_reach(
-    world: &World,
+fn within_reach<'a>(
+    world: &World<'a>,
     sight: &Sight,
     interaction: usize,
     watched: &[(ContactId, Watch)],
     (end, pace): (f64, Pace),
-) -> Small<March, 8> {
+) -> Small<March<'a>, 8> {
     let sides = world.travelled(interaction, &sight.q);
+    let farthest = sides[0] + sides[1] + pace.total() * (end - sight.t);
     let mut marches = Small::new();
-    for candidate in world.listed(interaction) {
+    for candidate in world.listed(interaction).iter().filter(|c| c.distance <= farthest) {
         let shares = world.shares(candidate);
         let pace = pace.shared(shares);
         let reach = sides[0] * shares[0] + sides[1] * shares[1] + pace.total() * (end - sight.t);
         let watch = watched.iter().find(|w| w.0 == candidate.id).map(|w| w.1);
         if candidate.distance <= reach && watch != Some(Watch::Closed) {
             let floor = watch.and_then(Watch::floor);
-            marches.push(March::new(candidate, pace, floor, sight.t));
+            marches.push(March::new(world, candidate, pace, floor, sight.t));
         }
     }
     marches
@@ -163,7 +165,7 @@ fn within_reach(
 fn follow<'a>(
     world: &mut World<'a>,
     sight: &mut Sight<'_, '_, 'a>,
-    marches: &mut Small<March, 8>,
+    marches: &mut Small<March<'a>, 8>,
     end: f64,
     real: Real,
     found: &mut Found,

@@ -289,15 +289,15 @@ fn weigh(system: &System, row: &Row, q: &[f64], v: &[f64]) -> f64 {
 
 /// `G M⁻¹ Gᵀ` in row order.
 pub fn inverse_inertia(system: &System, rows: &[Row]) -> Small<f64, 16> {
-    let product = |a: &Row, b: &Row| -> f64 {
-        a.entries()
-            .map(|(i, g)| {
-                let h: f64 = b.entries().filter(|(j, _)| *j == i).map(|(_, h)| h).sum();
-                g * h / system.coordinates[i].inertia
-            })
-            .sum()
-    };
-    rows.iter().flat_map(|a| rows.iter().map(move |b| product(a, b))).collect()
+    let n = rows.len();
+    let mut a: Small<f64, 16> = smallvec::smallvec![0.0; n * n];
+    for i in 0..n {
+        for j in 0..=i {
+            let product = rows[i].product(&rows[j], |k| system.coordinates[k].inertia);
+            (a[i * n + j], a[j * n + i]) = (product, product);
+        }
+    }
+    a
 }
 
 /// Adds `M⁻¹ Gᵀ λ`.

@@ -2,8 +2,9 @@
 
 use crate::component::Component;
 use crate::linear::Small;
+use crate::root::narrow;
 use crate::search::Stretch;
-use crate::world::World;
+use crate::world::{Touch, World};
 use mainspring_mechanism::ContactId;
 
 /// Why a stretch ends before its time.
@@ -33,8 +34,8 @@ const SAMPLES: u32 = 3;
 /// The first change of a component's contacts over the stretch.
 pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch) -> Option<(f64, Change)> {
     let n = stretch.paths.len();
-    let mut probe =
-        Probe { component, stretch, q: vec![0.0; n], v: vec![0.0; n], acceleration: vec![0.0; n] };
+    let zero = || -> Small<f64, 8> { smallvec::smallvec![0.0; n] };
+    let mut probe = Probe { component, stretch, q: zero(), v: zero(), acceleration: zero() };
     let mut before = stretch.from;
     for k in 1..=SAMPLES {
         let t = stretch.from + (stretch.to - stretch.from) * f64::from(k) / f64::from(SAMPLES);
@@ -54,9 +55,9 @@ pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch)
 struct Probe<'c, 's, 'p> {
     component: &'c Component,
     stretch: &'s Stretch<'p>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
+    q: Small<f64, 8>,
+    v: Small<f64, 8>,
+    acceleration: Small<f64, 8>,
 }
 
 impl Probe<'_, '_, '_> {
@@ -71,11 +72,14 @@ impl Probe<'_, '_, '_> {
     fn measure_all(&mut self, world: &mut World, t: f64) -> Small<f64, 8> {
         self.move_to(t);
         let size = world.system.size;
-        let placed = self.component.place(world, &self.q);
-        let touches = self.component.touches(world, &placed);
-        let forces = self.component.forces_of(world, &touches, &self.q, &self.v, &mut self.acceleration);
-        let forces = forces.unwrap_or_else(|| touches.iter().map(|_| 0.0).collect());
-        forces.into_iter().zip(&touches).flat_map(|(force, t)| [force, t.margin(size)]).collect()
+        let mut measures: Small<f64, 8> = Small::new();
+        let margin = |touch: &Touch| measures.extend([0.0, touch.margin(size)]);
+        let state = (self.q.as_slice(), self.v.as_slice());
+        let forces = self.component.forces(world, state, &mut self.acceleration, margin);
+        for (measure, force) in measures.iter_mut().step_by(2).zip(forces.iter().flatten()) {
+            *measure = *force;
+        }
+        measures
     }
 
     /// One of them; a margin needs its own contact only.
@@ -90,34 +94,12 @@ impl Probe<'_, '_, '_> {
         world.touch(contact, (&a, &b)).margin(size)
     }
 
-    /// The time after `good` at which measure `i` turns negative, given a later time at which it is: regula falsi of
-    /// Illinois, to the grain of the clock.
+    /// The time after `good` at which measure `i` turns negative, given a later time at which it is.
     fn zero(&mut self, world: &mut World, i: usize, good: f64, bad: (f64, f64)) -> f64 {
-        let (mut a, mut fa) = (good, self.measure(world, i, good));
-        let (mut b, mut fb) = bad;
-        if fa <= 0.0 {
-            return a;
+        let start = (good, self.measure(world, i, good));
+        if start.1 <= 0.0 {
+            return good;
         }
-        let mut last_negative = None;
-        for k in 0..100 {
-            if b - a <= 4.0 * f64::EPSILON * (1.0 + b.abs()) {
-                break;
-            }
-            let secant = b - fb * (b - a) / (fb - fa);
-            let t = if k % 8 == 7 { 0.5 * (a + b) } else { secant }.clamp(a, b);
-            let f = self.measure(world, i, t);
-            if f < 0.0 {
-                (b, fb) = (t, f);
-                fa *= if last_negative == Some(true) { 0.5 } else { 1.0 };
-            } else {
-                (a, fa) = (t, f);
-                fb *= if last_negative == Some(false) { 0.5 } else { 1.0 };
-            }
-            if f == 0.0 || (k > 0 && f.abs() <= 1e-15 * world.system.size && i % 2 == 1) {
-                return t;
-            }
-            last_negative = Some(f < 0.0);
-        }
-        b
+        narrow(|t| self.measure(world, i, t), start, bad).1.0
     }
 }

@@ -47,6 +47,19 @@ impl Row {
     pub fn dot(&self, x: &[f64]) -> f64 {
         self.entries().map(|(i, g)| g * x[i]).sum()
     }
+
+    /// `Σ gᵢ hᵢ / mᵢ` with another row h and weights m.
+    pub fn product(&self, other: &Self, weight: impl Fn(usize) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for (i, g) in self.entries() {
+            for (j, h) in other.entries() {
+                if i == j {
+                    sum += g * h / weight(i);
+                }
+            }
+        }
+        sum
+    }
 }
 
 /// A body at given joint positions.
@@ -70,12 +83,16 @@ impl<'b> Placed<'b> {
     pub fn new(body: &'b Body, q: &[f64]) -> Self {
         let mut placed =
             Self { pose: Pose::identity(), chain: &body.chain, at: [Vec2::default(); MAX_CHAIN] };
-        for (at, joint) in placed.at.iter_mut().zip(&body.chain) {
-            *at = match joint.motion {
+        for (k, joint) in body.chain.iter().enumerate().take(MAX_CHAIN) {
+            let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
+            if k == 0 {
+                (placed.at[0], placed.pose) = (joint.motion.vector(), step);
+                continue;
+            }
+            placed.at[k] = match joint.motion {
                 Motion::Turn { center } => placed.pose.apply(center),
                 Motion::Slide { direction } => placed.pose.rotate(direction),
             };
-            let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
             placed.pose = placed.pose.then_after(&step);
         }
         placed

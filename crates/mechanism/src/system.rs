@@ -99,6 +99,14 @@ impl<S: Scalar> Pose<S> {
 }
 
 impl Motion {
+    /// The centre of a turn or the direction of a slide, where the carrier is as modelled.
+    pub fn vector(&self) -> Vec2 {
+        match *self {
+            Motion::Turn { center } => center,
+            Motion::Slide { direction } => direction,
+        }
+    }
+
     /// The rigid motion at joint position `x`.
     pub fn pose<S: Scalar>(&self, x: S) -> Pose<S> {
         match *self {
