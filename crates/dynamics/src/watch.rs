@@ -3,7 +3,7 @@
 use crate::component::Component;
 use crate::linear::Small;
 use crate::search::Stretch;
-use crate::world::World;
+use crate::world::{Touch, World};
 use mainspring_mechanism::ContactId;
 
 /// Why a stretch ends before its time.
@@ -27,6 +27,9 @@ impl Change {
     }
 }
 
+/// A contact point has run off once it is this far past the end of its feature, relative to the machine's size: more
+/// than rounding, so that a corner that turns flush lets go only after the next one has closed.
+const PAST_END: f64 = 1e-11;
 /// Samples of a stretch in which a change is looked for.
 const SAMPLES: u32 = 3;
 
@@ -75,7 +78,8 @@ impl Probe<'_, '_, '_> {
         let touches = self.component.touches(world, &placed);
         let forces = self.component.forces_of(world, &touches, &self.q, &self.v, &mut self.acceleration);
         let forces = forces.unwrap_or_else(|| touches.iter().map(|_| 0.0).collect());
-        forces.into_iter().zip(&touches).flat_map(|(force, t)| [force, t.margin(size)]).collect()
+        let margin = |t: &Touch| t.margin(size) + PAST_END * size;
+        forces.into_iter().zip(&touches).flat_map(|(force, t)| [force, margin(t)]).collect()
     }
 
     /// One of them; a margin needs its own contact only.
@@ -87,7 +91,7 @@ impl Probe<'_, '_, '_> {
         let size = world.system.size;
         let contact = &self.component.contacts[i / 2];
         let (a, b) = world.place(contact, &self.q);
-        world.touch(contact, (&a, &b)).margin(size)
+        world.touch(contact, (&a, &b)).margin(size) + PAST_END * size
     }
 
     /// The time after `good` at which measure `i` turns negative, given a later time at which it is: regula falsi of
