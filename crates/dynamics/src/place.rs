@@ -5,7 +5,7 @@
 //! largest rate. At different places, and at concave corners, contacts act together.
 
 use crate::linear::Small;
-use crate::search::{BAND, TOGETHER};
+use crate::search::{BAND, OVERLAP, TOGETHER};
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, ContactId, Feature, FeatureShape, GapKind, Row};
 
@@ -66,7 +66,7 @@ fn stands(
     let still = tolerance(&touch.row());
     for other in alternatives(world, touch) {
         let other = world.touch(&other, touch.placed);
-        if !is_eligible(world, &other, q, v) || other.state.gap < -1e3 * TOGETHER * size {
+        if !is_eligible(world, &other, q, v) || other.state.gap < -OVERLAP * size {
             continue;
         }
         if other.state.gap > TOGETHER * size {

@@ -14,6 +14,9 @@ use mainspring_mechanism::{Candidate, ContactId};
 pub const CLOSED: f64 = 1e-13;
 /// Contacts this near, relative to the machine's size, are resolved together.
 pub const TOGETHER: f64 = 1e-10;
+/// Contacts that touch overlap by no more than this, relative to the machine's size: steps of the integrator leave
+/// less, and what touches is found again although it overlaps.
+pub const OVERLAP: f64 = 1e-6;
 /// Contact points this near to the end of a feature, relative to the machine's size, count as at the end.
 pub const BAND: f64 = 1e-9;
 /// Most evaluations along one contact and stretch.

@@ -7,7 +7,7 @@
 use crate::complementarity::{Solution, solve};
 use crate::linear::{Cholesky, Small};
 use crate::place::representatives;
-use crate::search::TOGETHER;
+use crate::search::{OVERLAP, TOGETHER};
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, ContactId, ContactSource, Placed, Relative, Row, System};
 
@@ -15,6 +15,8 @@ use mainspring_mechanism::{Candidate, ContactId, ContactSource, Placed, Relative
 const STILL: f64 = 1e-10;
 /// Relative accelerations below this fraction of those at hand count as zero.
 const BALANCED: f64 = 1e-10;
+/// Rates above this fraction of the speeds at hand are no chatter that has come to its end.
+const CHATTERING: f64 = 1e-5;
 /// Rounds of impacts at one instant.
 const MOST_ROUNDS: usize = 40;
 
@@ -50,6 +52,23 @@ pub struct Settled {
     pub solved: bool,
 }
 
+impl Settled {
+    /// Counts what an earlier resolution of the same instant did at impacts as well.
+    pub fn add_blow(&mut self, earlier: Settled) {
+        let later = std::mem::replace(&mut self.impulses, earlier.impulses);
+        later.into_iter().for_each(|i| add_impulse(&mut self.impulses, i));
+        self.loss += earlier.loss;
+        self.solved &= earlier.solved;
+    }
+}
+
+fn add_impulse(impulses: &mut Vec<Impulse>, new: Impulse) {
+    match impulses.iter_mut().find(|i| i.candidate.id == new.candidate.id) {
+        Some(before) => before.impulse += new.impulse,
+        None => impulses.push(new),
+    }
+}
+
 /// The state that an instant starts from. `speeds` are the greatest speeds so far, for tolerances.
 pub struct Instant<'a> {
     pub q: &'a [f64],
@@ -59,7 +78,8 @@ pub struct Instant<'a> {
     /// A contact to leave out unless the others would make it overlap: its force has come to zero, or it ran off
     /// its feature.
     pub leaving: Option<ContactId>,
-    /// Set when a contact has come to chatter by less than can be told apart: rates up to this end here.
+    /// Set when a contact has come to chatter by less than can be told apart, or when events at one instant do not
+    /// end: rates up to this end here.
     pub chattering: Option<f64>,
 }
 
@@ -75,8 +95,9 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
         }
     }
     if let Some(rate) = instant.chattering {
-        let touches = choose(world, instant, &near, v);
-        quieten(world.system, rate, &touches, v);
+        // At rest all that touches counts: also a corner that was on its way off a face.
+        let touches = choose(world, instant, &near, &vec![0.0; v.len()]);
+        quieten(world.system, instant, rate, &touches, v);
     }
     let touches = choose(world, instant, &near, v);
     hold(world.system, instant, &touches, v, &mut out);
@@ -111,20 +132,20 @@ pub fn forces_at(
 
 /// Every contact closed to `TOGETHER` at `q`, wherever along its features.
 fn near_touches<'p>(world: &mut World, q: &[f64], placed: &'p [Placed<'p>]) -> Vec<Touch<'p>> {
-    let within = TOGETHER * world.system.size;
+    let (within, deep) = (TOGETHER * world.system.size, OVERLAP * world.system.size);
     let still: Small<f64, 8> = smallvec::smallvec![0.0; q.len()];
     let mut found = Vec::new();
     for interaction in 0..world.arms.len() {
-        let (travelled, _) = world.refresh(interaction, q, 2.0 * within);
+        let (travelled, _) = world.refresh(interaction, q, 2.0 * deep);
         let (a, b) = world.system.interactions[interaction].bodies;
         let relative = Relative::new(&placed[a], &placed[b], &still, &still);
         for k in 0..world.listed(interaction).len() {
             let candidate = world.listed(interaction)[k];
-            if candidate.distance - travelled > 2.0 * within {
+            if candidate.distance - travelled > 2.0 * deep {
                 continue;
             }
             let gap = world.approach(&candidate, &relative).gap;
-            if gap <= within && gap >= -1e3 * within {
+            if gap <= within && gap >= -deep {
                 found.push(world.touch_among(&candidate, placed));
             }
         }
@@ -142,7 +163,12 @@ fn choose<'p>(world: &mut World, instant: &Instant, near: &[Touch<'p>], v: &[f64
 
 /// Below this a rate of closing counts as zero.
 pub fn rate_tolerance(row: &Row, speeds: &[f64]) -> f64 {
-    STILL * row.entries().map(|(i, g)| g.abs() * speeds[i]).sum::<f64>()
+    STILL * reach_of(row, speeds)
+}
+
+/// The greatest rate that the greatest speeds so far could give.
+fn reach_of(row: &Row, speeds: &[f64]) -> f64 {
+    row.entries().map(|(i, g)| g.abs() * speeds[i]).sum()
 }
 
 /// One round of impact over the chosen contacts; false when nothing was closing.
@@ -166,18 +192,16 @@ fn impact(system: &System, instant: &Instant, touches: &[Touch], v: &mut [f64], 
     }
     stop_locked(&rows, &solution.active, v);
     for (touch, &impulse) in touches.iter().zip(&solution.lambda).filter(|(_, l)| **l > 0.0) {
-        match out.impulses.iter_mut().find(|i| i.candidate.id == touch.candidate.id) {
-            Some(before) => before.impulse += impulse,
-            None => out.impulses.push(Impulse { candidate: touch.candidate, impulse }),
-        }
+        add_impulse(&mut out.impulses, Impulse { candidate: touch.candidate, impulse });
     }
     true
 }
 
 /// Ends a chatter: velocities that keep every touching contact with a small rate closed, nearest in the metric of
 /// inertia. The energy this takes is below what can be told apart.
-fn quieten(system: &System, rate: f64, touches: &[Touch], v: &mut [f64]) {
-    let slow = touches.iter().filter(|t| t.rate(v).abs() <= rate);
+fn quieten(system: &System, instant: &Instant, rate: f64, touches: &[Touch], v: &mut [f64]) {
+    let bound = |t: &Touch| rate.min(CHATTERING * reach_of(&t.row(), instant.speeds));
+    let slow = touches.iter().filter(|t| t.rate(v).abs() <= bound(t));
     let mut rows: Vec<Row> = Vec::new();
     for touch in slow {
         rows.push(touch.row());

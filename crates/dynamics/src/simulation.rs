@@ -60,6 +60,9 @@ const AT_REST: f64 = 1e-13;
 /// Events allowed without any passage of time.
 const MOST_AT_ONCE: u32 = 200;
 
+/// Parts in contact are integrated at least this well: what a step leaves stays far below `OVERLAP`.
+const LOOSEST: f64 = 1e-7;
+
 /// The contacts closed from a time on, until the next mode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
@@ -103,8 +106,6 @@ pub struct Simulation<'a> {
     /// Contacts not to look for before a positive gap was seen, with the gap they count from.
     released: Vec<(ContactId, f64)>,
     chatter: Chatter,
-    /// Rate up to which a chatter ends at the next resolution.
-    chattering: Option<f64>,
     components: Vec<(Component, f64)>,
     next_step: f64,
     /// Longest time between looks at the motion; infinite unless an observer wants to stop early.
@@ -140,7 +141,6 @@ impl<'a> Simulation<'a> {
             modes: vec![],
             released: vec![],
             chatter: Chatter::default(),
-            chattering: None,
             components: vec![],
             next_step: 0.05 * system.coordinates.iter().map(natural_time).fold(options.until, f64::min),
             longest_stretch: f64::INFINITY,
@@ -194,7 +194,6 @@ impl<'a> Simulation<'a> {
         let (at, change) = self.next_event(to);
         self.commit(at);
         if let Some(change) = change {
-            self.note_closing(change);
             self.resolve(change.leaving());
         } else {
             self.tend();
@@ -208,7 +207,7 @@ impl<'a> Simulation<'a> {
         for k in 0..self.components.len() {
             if self.components[k].1 <= self.t {
                 let tolerance = Tolerance {
-                    relative: self.options.rtol,
+                    relative: self.options.rtol.min(LOOSEST),
                     positions: &self.scales,
                     speeds: &self.speeds,
                     shortest: 16.0 * f64::EPSILON * (1.0 + self.t.abs()),
@@ -332,31 +331,25 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Keeps count of contacts that close again and again.
-    fn note_closing(&mut self, change: Change) {
-        self.chattering = None;
-        let Change::Closing(id) = change else { return };
-        let Some(candidate) = find_candidate(&self.world, id) else { return };
-        let (a, b) = self.world.place(&candidate, &self.q);
-        let rate = self.world.touch(&candidate, (&a, &b)).rate(&self.v);
-        if self.chatter.closes(id, self.t, rate, self.world.system.size) {
-            // Bodies of unlike inertia throw each other faster than they meet.
-            self.chattering = Some(100.0 * rate.abs());
-        }
-    }
-
     /// Resolves impacts and contact forces now, logs what changed, and gives every coordinate its path.
     fn resolve(&mut self, leaving: Option<ContactId>) {
         let before = self.v.clone();
         let mut v = self.v.clone();
-        let instant = Instant {
+        let mut instant = Instant {
             q: &self.q,
             speeds: &self.speeds,
             closed: &self.closed,
             leaving,
-            chattering: self.chattering.take(),
+            chattering: (self.at_once > MOST_AT_ONCE / 2).then_some(f64::INFINITY),
         };
-        let settled = settle(&mut self.world, &instant, &mut v);
+        let mut settled = settle(&mut self.world, &instant, &mut v);
+        instant.chattering =
+            self.chatter.ends(&mut self.world, self.t, (&self.q, &self.v), &settled.impulses);
+        if instant.chattering.is_some() {
+            let blow = settled;
+            settled = settle(&mut self.world, &instant, &mut v);
+            settled.add_blow(blow);
+        }
         self.v = v;
         self.events.extend(entries(&self.world, self.t, &self.closed, &settled));
         if !settled.impulses.is_empty() {

@@ -28,6 +28,9 @@ impl Change {
     }
 }
 
+/// A contact point has run off once it is this far past the end of its feature, relative to the machine's size: more
+/// than rounding, so that a corner that turns flush lets go only after the next one has closed.
+const PAST_END: f64 = 1e-11;
 /// Samples of a stretch in which a change is looked for.
 const SAMPLES: u32 = 3;
 
@@ -73,7 +76,7 @@ impl Probe<'_, '_, '_> {
         self.move_to(t);
         let size = world.system.size;
         let mut measures: Small<f64, 8> = Small::new();
-        let margin = |touch: &Touch| measures.extend([0.0, touch.margin(size)]);
+        let margin = |touch: &Touch| measures.extend([0.0, touch.margin(size) + PAST_END * size]);
         let state = (self.q.as_slice(), self.v.as_slice());
         let forces = self.component.forces(world, state, &mut self.acceleration, margin);
         for (measure, force) in measures.iter_mut().step_by(2).zip(forces.iter().flatten()) {
@@ -91,7 +94,7 @@ impl Probe<'_, '_, '_> {
         let size = world.system.size;
         let contact = &self.component.contacts[i / 2];
         let (a, b) = world.place(contact, &self.q);
-        world.touch(contact, (&a, &b)).margin(size)
+        world.touch(contact, (&a, &b)).margin(size) + PAST_END * size
     }
 
     /// The time after `good` at which measure `i` turns negative, given a later time at which it is.
