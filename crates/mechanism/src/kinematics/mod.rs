@@ -14,6 +14,7 @@ mod lower;
 mod mechanism;
 mod mobility;
 mod near_miss;
+mod neighbours;
 mod pair;
 mod patch;
 mod placement;

@@ -186,7 +186,7 @@ impl Mechanism {
         }
         self.with_reach(|parts| {
             for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.outline.is_none()) {
-                let touched = |j: &usize| *j != i && parts.may_touch(i, *j, self.plane.normal);
+                let touched = |j: &usize| *j != i && parts.may_touch(i, *j);
                 if let Some(j) = (0..self.parts.len()).find(touched) {
                     let place = part.tilted.map_or(part.place, |p| self.machine.place_of_primitive(p));
                     let why = part.note.as_deref().unwrap_or("it has no planar outline");

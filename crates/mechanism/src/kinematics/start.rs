@@ -3,7 +3,10 @@
 use super::bounds::Bounds;
 use super::region::{Carrier, Region, within};
 use super::work::Work;
-use mainspring_geometry::{Csg, CsgOp, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap};
+use mainspring_geometry::{
+    Csg, CsgOp, OutlineBudget, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap_within,
+};
+use std::cell::Cell;
 
 /// A point inside two parts at once, in machine coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +20,9 @@ pub(crate) struct Start<'a> {
     pub boxes: &'a [Bounds],
     pub plane_from_machine: Rigid3,
     pub tolerance: f64,
+    /// Of the scans, and of the planar booleans.
     pub work: Work,
+    pub budget: Cell<OutlineBudget>,
 }
 
 /// A mesh, by the primitives that are its envelopes.
@@ -42,7 +47,11 @@ impl Start<'_> {
         }
         let a = without_meshes(a, meshes);
         let (primitives, plane) = (self.primitives, &self.plane_from_machine);
-        match overlap(Part { primitives, csg: &a }, Part { primitives, csg: b }, plane) {
+        let parts = [&a, b].map(|csg| Part { primitives, csg });
+        let mut budget = self.budget.get();
+        let found = budget.half(|left| overlap_within(parts[0], parts[1], plane, left));
+        self.budget.set(budget);
+        match found {
             Ok(found) => found.map(|o| Clash { point: self.lift(o.point, o.height) }),
             Err(OutlineError::Malformed { .. }) => None,
             Err(_) => self.scan([&a, b], bounds),

@@ -2,7 +2,7 @@
 
 use super::mechanism::{JointSpring, Mechanism, Warning};
 use super::pair::PairKind;
-use mainspring_geometry::mass_properties;
+use mainspring_geometry::{MASS_WORK, OutlineBudget, mass_properties_within};
 use mainspring_model::{Error, PairData, Place, StateValue, Values};
 
 /// Joint positions of one subsystem may contradict each other by this much (radians, or parts of the machine).
@@ -52,25 +52,56 @@ fn slides(mechanism: &Mechanism, part: usize) -> bool {
     kind == Some(PairKind::Prismatic)
 }
 
-/// Inertias that were not given, from densities: about the joint's axis, or the mass where the part slides.
+/// Inertias that were not given, from densities: about the joint's axis, or the mass where the part slides. Parts
+/// that are planar in no direction share the work of integration; what it did not suffice for is told.
 fn densities(mechanism: &mut Mechanism, values: &Values<f64>) -> Result<(), Error> {
     let machine = mechanism.machine.clone();
+    let mut wanted = Vec::new();
     for (i, model) in machine.parts().iter().enumerate() {
-        let Some(density) = machine.density(model, values)? else { continue };
-        let part = &mechanism.parts[i];
-        let (None, Some(joint)) = (part.inertia, part.joint) else { continue };
-        let axis = mechanism.pairs[joint].axis;
-        let properties = mass_properties(&mechanism.primitives, &model.csg)
+        let density = machine.density(model, values)?;
+        if let (Some(density), None, Some(joint)) =
+            (density, mechanism.parts[i].inertia, mechanism.parts[i].joint)
+        {
+            wanted.push((i, density, joint));
+        }
+    }
+    let work = (MAX_MASS_WORK / wanted.len().max(1)).min(MASS_WORK);
+    let (mut rough, mut budget) = (Vec::new(), OutlineBudget::default());
+    for (i, density, joint) in wanted {
+        let (model, axis) = (&machine.parts()[i], mechanism.pairs[joint].axis);
+        let properties = budget
+            .half(|b| mass_properties_within(&mechanism.primitives, &model.csg, work, b))
             .map_err(|e| machine.error(model.place, format!("no inertia of {}: {e}", model.name)))?;
         let per_density = if slides(mechanism, i) {
             properties.volume
         } else {
             properties.moment_about(axis.point, axis.direction)
         };
+        rough.extend((properties.error > ROUGH).then_some((i, properties.error)));
         let part = &mut mechanism.parts[i];
         (part.inertia, part.inertia_from_density) = (Some(density * per_density), true);
     }
+    mechanism.warnings.extend(roughly_known(mechanism, &rough));
     Ok(())
+}
+
+/// Bound on the work of all integrations, in primitives met by columns.
+const MAX_MASS_WORK: usize = 12_000_000;
+/// An inertia known less well than to this part is told.
+const ROUGH: f64 = 1e-3;
+
+fn roughly_known(mechanism: &Mechanism, rough: &[(usize, f64)]) -> Option<Warning> {
+    let &(first, error) = rough.first()?;
+    let others = match rough.len() - 1 {
+        0 => String::new(),
+        n => format!(", nor are those of {n} other parts"),
+    };
+    let name = &mechanism.parts[first].name;
+    let message = format!(
+        "the inertia of {name}, from its density, is not known better than to {}%{others}",
+        super::near_miss::number((error * 100.0).min(100.0))
+    );
+    Some(Warning { place: None, parts: rough.iter().map(|r| r.0).collect(), message })
 }
 
 /// Values given for some parts, brought to all parts of their subsystems.
