@@ -16,15 +16,20 @@ pub struct OutlineBudget {
 impl Default for OutlineBudget {
     /// What one outline may cost: about two seconds.
     fn default() -> Self {
-        Self { pairs: 4_000_000, points: 1_000_000, probes: 24_000_000 }
+        Self { pairs: 4_000_000, points: 1_000_000, probes: 32_000_000 }
     }
 }
 
 impl OutlineBudget {
+    /// An allowance half as large.
+    pub fn halved(&self) -> Self {
+        Self { pairs: self.pairs / 2, points: self.points / 2, probes: self.probes / 2 }
+    }
+
     /// Lets one question of several cost at most half of what is left, so that no part of a machine takes what all
     /// others need.
     pub fn half<T>(&mut self, ask: impl FnOnce(&mut Self) -> T) -> T {
-        let given = Self { pairs: self.pairs / 2, points: self.points / 2, probes: self.probes / 2 };
+        let given = self.halved();
         let mut left = given;
         let answer = ask(&mut left);
         self.pairs -= given.pairs - left.pairs;

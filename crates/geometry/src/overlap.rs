@@ -35,10 +35,12 @@ impl Part<'_> {
 /// As [`OutlineRecipe::find`], for the region that both parts reach; a primitive's index in an error counts
 /// on from the first part's list to the second's.
 pub fn overlap(a: Part, b: Part, plane_from_machine: &Rigid3) -> Result<Option<Overlap>, OutlineError> {
-    overlap_within(a, b, plane_from_machine, &mut OutlineBudget::default())
+    let size = a.size(plane_from_machine).max(b.size(plane_from_machine));
+    overlap_within(a, b, plane_from_machine, size, &mut OutlineBudget::default())
 }
 
-/// As [`overlap`], for one of several questions that share an allowance of work.
+/// As [`overlap`], for one of several questions that share an allowance of work; tolerances are relative to `size`
+/// (file's length), so that parts may be given without what is far from the other.
 ///
 /// # Errors
 /// As [`overlap`].
@@ -46,6 +48,7 @@ pub fn overlap_within(
     a: Part,
     b: Part,
     plane_from_machine: &Rigid3,
+    size: f64,
     budget: &mut OutlineBudget,
 ) -> Result<Option<Overlap>, OutlineError> {
     for (part, base) in [(a, 0), (b, a.primitives.len() as u32)] {
@@ -54,7 +57,6 @@ pub fn overlap_within(
             return Err(OutlineError::Malformed { primitive: Some(i.saturating_add(base)) });
         }
     }
-    let size = a.size(plane_from_machine).max(b.size(plane_from_machine));
     let used = Used::of(a, b);
     let primitives = used.primitives(a, b);
     let both = used.intersection(a.csg, b.csg);

@@ -45,7 +45,7 @@ impl Mechanism {
 }
 
 /// Bound on the search for pairs.
-const MAX_WORK: u64 = 12_000_000;
+const MAX_WORK: u64 = 8_000_000;
 /// Bound on the work for one gear, of that for all.
 const MAX_GEAR_WORK: u64 = 4_000_000;
 

@@ -25,13 +25,13 @@ pub(crate) struct Lower {
 /// A point is on a surface within this part of the machine's size.
 pub(crate) const RELATIVE_TOLERANCE: f64 = 1e-9;
 
-/// Bound on the work for two parts, of that for all.
-const PAIR_WORK: u64 = 6_000_000;
+/// Bound on the work for the surfaces of two parts, and again for what they leave free; of that for all.
+pub(crate) const PAIR_WORK: u64 = 6_000_000;
 /// Bound on the work for a near miss.
 const MISS_WORK: u64 = 1_000_000;
 
 /// Parts near each other that are examined, two by two.
-pub(crate) const MAX_NEIGHBOURS: usize = 250_000;
+pub(crate) const MAX_NEIGHBOURS: usize = 100_000;
 
 /// Near misses told of one machine.
 pub(crate) const MAX_MISSES: usize = 200;

@@ -6,7 +6,7 @@ use super::lower::MAX_NEIGHBOURS;
 use super::mechanism::{Mechanism, Warning};
 use super::neighbours::neighbours;
 use super::pair::{EvidenceKind, Pair, PairKind};
-use super::start::{Envelopes, Start};
+use super::start::{Envelopes, Extent, Start};
 use super::work::Work;
 use mainspring_geometry::{OutlineBudget, Primitive, Rigid3, Vec3};
 use mainspring_model::Error;
@@ -58,17 +58,17 @@ impl Mechanism {
     pub(crate) fn check_start(&self) -> Result<Option<Warning>, Error> {
         let primitives = self.start_primitives();
         let boxes: Vec<Bounds> = primitives.iter().map(Bounds::of).collect();
-        let around = |csg: &mainspring_geometry::Csg| {
-            csg.leaves().fold(Bounds::EMPTY, |b, i| b.join(&boxes[i as usize]))
-        };
-        let bounds: Vec<Bounds> = self.parts.iter().map(|p| around(&p.csg)).collect();
+        let plane = &self.plane.plane_from_machine;
+        let csgs = self.parts.iter().map(|p| &p.csg);
+        let extents: Vec<Extent<'_>> = csgs.map(|c| Extent::of(c, &primitives, &boxes, plane)).collect();
+        let bounds: Vec<Bounds> = extents.iter().map(|e| e.bounds).collect();
         let start = Start {
             primitives: &primitives,
             boxes: &boxes,
-            plane_from_machine: self.plane.plane_from_machine,
+            plane_from_machine: *plane,
             tolerance: self.tolerance,
             work: Work::new(MAX_WORK),
-            budget: Cell::new(OutlineBudget::default()),
+            budget: Cell::new(OutlineBudget::default().halved()),
         };
         let gears = self.pairs.iter().filter(|p| p.kind == PairKind::Gear);
         let mut meshes: BTreeMap<(usize, usize), Vec<Envelopes>> = BTreeMap::new();
@@ -76,9 +76,8 @@ impl Mechanism {
         let mut unchecked = Vec::new();
         let touching = neighbours(&bounds, MAX_NEIGHBOURS);
         for (i, j) in touching.pairs {
-            let (a, b) = (&self.parts[i], &self.parts[j]);
             let meshes = meshes.get(&(i, j)).map_or(&[][..], |m| m);
-            if let Some(clash) = start.clash(&a.csg, &b.csg, [&bounds[i], &bounds[j]], meshes) {
+            if let Some(clash) = start.clash([&extents[i], &extents[j]], meshes) {
                 return Err(self.clash_error(i, j, clash.point));
             }
             if start.work.ran_out() {
