@@ -9,6 +9,9 @@ use crate::system::{Body, Coordinate, Joint, Motion};
 use mainspring_geometry::Vec2;
 use mainspring_model::Error;
 
+/// Greatest friction, spring constant and force over the inertia, in the file's units.
+const MAX_RATE: f64 = 1e100;
+
 impl Mechanism {
     /// Everything contact and motion need.
     ///
@@ -137,12 +140,28 @@ impl Mechanism {
             }
         }
         if c.inertia > 0.0 && [c.inertia, c.stiffness, c.force, c.damping].iter().all(|x| x.is_finite()) {
-            return Ok(c);
+            return self.with_sound_rates(c, s.root);
         }
         self.fail(
             s.root,
             format!("the values of {} overflow, expected finite inertia, friction and spring", c.name),
         )
+    }
+
+    /// Squares of rates must be finite, or the motion is not.
+    fn with_sound_rates(&self, c: Coordinate, root: usize) -> Result<Coordinate, Error> {
+        let rates = [(c.damping, "friction"), (c.stiffness, "spring constant"), (c.force, "spring's force")];
+        let too_large = rates.iter().find(|(value, _)| (value / c.inertia).abs() > MAX_RATE);
+        match too_large {
+            None => Ok(c),
+            Some((value, what)) => self.fail(
+                root,
+                format!(
+                    "the {what} of {} is {value:e}, its inertia {:e}, expected a ratio below {MAX_RATE:e}",
+                    c.name, c.inertia
+                ),
+            ),
+        }
     }
 
     /// The parts as contact sees them, in the working plane, in the order of [`Mechanism::parts`].
