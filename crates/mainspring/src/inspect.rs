@@ -6,13 +6,22 @@ use mainspring_mechanism::{Mechanism, Pair, PairKind, Subsystem};
 use mainspring_model::{Machine, Parameter};
 use serde_json::{Value, json};
 
+/// Pairs of parts listed that may touch: more are of no use to a reader, and take a gibibyte.
+const MAX_INTERACTIONS: usize = 200_000;
+
 /// The object that `inspect --json` prints.
 pub fn inspect_json(m: &Mechanism) -> Value {
     let name = |i: usize| m.parts[i].name.clone();
     let names = |(a, b): (usize, usize)| json!([name(a), name(b)]);
-    let mut interactions: Vec<[String; 2]> =
-        m.interactions().iter().map(|&(a, b)| sorted(name(a), name(b))).collect();
+    let found = m.interactions();
+    let listed = found.iter().take(MAX_INTERACTIONS);
+    let mut interactions: Vec<[String; 2]> = listed.map(|&(a, b)| sorted(name(a), name(b))).collect();
     interactions.sort();
+    let mut warnings = warnings(m);
+    if found.len() > MAX_INTERACTIONS {
+        warnings
+            .push(format!("only the first {MAX_INTERACTIONS} of {} interactions are listed", found.len()));
+    }
     json!({
         "parts": m.parts.iter().map(|p| &p.name).collect::<Vec<_>>(),
         "frame": name(m.frame),
@@ -27,7 +36,7 @@ pub fn inspect_json(m: &Mechanism) -> Value {
             "mobility": c.mobility,
         })).collect::<Vec<_>>(),
         "mobility": m.mobility,
-        "warnings": warnings(m),
+        "warnings": warnings,
         "plane": plane(m),
         "gravity": vec3(m.gravity),
         "contact": {"E": m.contact.e, "D": m.contact.d, "M": m.contact.m},

@@ -156,3 +156,21 @@ fn closed_chains_take_no_initial_state() {
     let message = with(&text, "POSITION crankshaft 10\n").map(|_| ()).unwrap_err();
     assert!(message.contains("closed chain") && message.starts_with("test.sup:1:"), "{message}");
 }
+
+/// Found by fuzzing: an inertia of 2e-308 passed, and the first step of the simulation was not a number.
+#[test]
+fn friction_and_springs_must_not_dwarf_the_inertia() {
+    let text = machine(LEVER, &["lever", "frame"]);
+    let sound = |values: &str| {
+        let m = with(&text, &format!("< lever : FRAME > {values}\n")).unwrap_or_else(|e| panic!("{e}"));
+        m.system().map(|_| ()).map_err(|e| e.to_string())
+    };
+    assert_eq!(sound("1e-90 5"), Ok(()));
+    let message = sound("2e-308 5").unwrap_err();
+    assert!(message.starts_with("test.sup:1:"), "{message}");
+    assert!(
+        message.contains("the friction of lever is 5e0, its inertia 2e-308, expected a ratio below 1e100")
+    );
+    let message = sound("1e-99 0 SPRING 1 50").unwrap_err();
+    assert!(message.contains("the spring constant of lever is 5e1"), "{message}");
+}

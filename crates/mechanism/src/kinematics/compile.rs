@@ -20,7 +20,7 @@ use super::symmetry::symmetries;
 use super::words;
 use super::work::Work;
 use crate::forces::ContactLaw;
-use mainspring_geometry::{Csg, Outline, OutlineError, OutlineRecipe, Primitive, Vec3};
+use mainspring_geometry::{Csg, Outline, OutlineBudget, OutlineError, OutlineRecipe, Primitive, Vec3};
 use mainspring_model::{Error, Machine, Values};
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ impl Mechanism {
 }
 
 /// Bound on the search for pairs.
-const MAX_WORK: u64 = 12_000_000;
+const MAX_WORK: u64 = 8_000_000;
 /// Bound on the work for one gear, of that for all.
 const MAX_GEAR_WORK: u64 = 4_000_000;
 
@@ -89,10 +89,11 @@ fn assemble(
     let holds = holds(models.len(), frame, &pairs);
     let mut subsystems = subsystems(&holds, &pairs);
     rates.iter().for_each(|r| join(&mut subsystems, r, &holds, &pairs));
+    let mut budget = OutlineBudget::default();
+    let around = shapes.parts(&holds, &pairs, plane.normal);
     let parts: Vec<Part> = (0..models.len())
         .map(|i| {
-            let Section { outline, recipe, note, tilted } =
-                section(&shapes.parts(&holds, &pairs), i, &plane, &label);
+            let Section { outline, recipe, note, tilted } = section(&around, i, &plane, &label, &mut budget);
             Part {
                 name: name(i),
                 is_frame: i == frame,
@@ -197,21 +198,28 @@ struct Section {
 }
 
 /// Primitives that are no prisms along the normal and out of everybody's reach are left out of the section.
-fn section(parts: &Parts<'_>, part: usize, plane: &WorkingPlane, label: &impl Fn(u32) -> String) -> Section {
+fn section(
+    parts: &Parts<'_>,
+    part: usize,
+    plane: &WorkingPlane,
+    label: &impl Fn(u32) -> String,
+    budget: &mut OutlineBudget,
+) -> Section {
     let pose = &plane.plane_from_machine;
-    let find = |csg: &Csg| OutlineRecipe::find(parts.primitives, csg, pose);
-    let mut found = find(parts.csgs[part]);
+    let mut find =
+        |csg: &Csg| budget.half(|b| OutlineRecipe::find_within(parts.placed.primitives, csg, pose, b));
+    let mut found = find(parts.placed.csgs[part]);
     let mut note = None;
     if matches!(found, Err(OutlineError::NotPrismatic { .. })) {
-        let unreached = parts.unreached(part, plane.normal);
+        let unreached = parts.unreached(part);
         if let Some(first) = unreached.first() {
-            found = find(&without_leaves(parts.csgs[part], &unreached));
+            found = find(&without_leaves(parts.placed.csgs[part], &unreached));
             note = Some(format!("{} is left out of the section: nothing can reach it", label(*first)));
         }
     }
     match found {
         Ok(recipe) => {
-            let outline = Some(recipe.evaluate(parts.primitives, pose));
+            let outline = Some(recipe.evaluate(parts.placed.primitives, pose));
             Section { outline, recipe: Some(recipe), note, tilted: None }
         }
         Err(OutlineError::NotPrismatic { primitive, .. }) => {

@@ -3,11 +3,11 @@
 //! A part that turns about o has J = I + m |c − o|², I about its centre of mass c. Of J, I, m and c the supplement may
 //! give some; a density gives what is left.
 
-use super::mechanism::{Mechanism, Part};
+use super::mechanism::{Mechanism, Part, Warning};
 use super::near_miss::number;
 use super::pair::PairKind;
 use super::surface::off_line;
-use mainspring_geometry::{Vec3, mass_properties};
+use mainspring_geometry::{MASS_WORK, OutlineBudget, Vec3, mass_properties_within};
 use mainspring_model::{Error, MassData, PartModel, Values};
 
 /// Mass, centre of mass and moment of inertia about it, as far as they are known.
@@ -22,12 +22,21 @@ pub struct PartMass {
 
 /// Two values given for one thing may differ by this part of the larger.
 const SAME: f64 = 1e-6;
+/// Bound on the work of all integrations, in primitives met by columns.
+const MAX_MASS_WORK: usize = 12_000_000;
+/// An inertia known less well than to this part is told.
+const ROUGH: f64 = 1e-3;
 
 /// Puts inertias and masses into the parts.
 pub(crate) fn given(mechanism: &mut Mechanism, values: &Values<f64>) -> Result<(), Error> {
     let machine = mechanism.machine.clone();
-    for (i, model) in machine.parts().iter().enumerate().filter(|(_, m)| !m.is_frame) {
-        let shape = shape(mechanism, i, model, values)?;
+    let moving = || machine.parts().iter().enumerate().filter(|(_, m)| !m.is_frame);
+    let wanted = moving().filter(|(i, m)| m.density.is_some() && needs_shape(mechanism, *i)).count();
+    let work = (MAX_MASS_WORK / wanted.max(1)).min(MASS_WORK);
+    let (mut rough, mut budget) = (Vec::new(), OutlineBudget::default());
+    for (i, model) in moving() {
+        let shape = shape(mechanism, i, model, values, (work, &mut budget))?;
+        rough.extend(shape.as_ref().filter(|s| s.error > ROUGH).map(|s| (i, s.error)));
         let line = machine.supplement().masses.iter().find(|m| m.part == i);
         let place = line.map_or(mechanism.parts[i].place, |l| l.place);
         let told = Told::new(mechanism, i, shape, line).map_err(|message| machine.error(place, message))?;
@@ -35,7 +44,22 @@ pub(crate) fn given(mechanism: &mut Mechanism, values: &Values<f64>) -> Result<(
         part.inertia_from_density = told.from_shape && told.inertia.is_some();
         (part.inertia, part.mass) = (told.inertia, told.mass);
     }
+    mechanism.warnings.extend(roughly_known(mechanism, &rough));
     Ok(())
+}
+
+fn roughly_known(mechanism: &Mechanism, rough: &[(usize, f64)]) -> Option<Warning> {
+    let &(first, error) = rough.first()?;
+    let others = match rough.len() - 1 {
+        0 => String::new(),
+        n => format!(", nor are those of {n} other parts"),
+    };
+    let name = &mechanism.parts[first].name;
+    let message = format!(
+        "the inertia of {name}, from its density, is not known better than to {}%{others}",
+        super::near_miss::number((error * 100.0).min(100.0))
+    );
+    Some(Warning { place: None, parts: rough.iter().map(|r| r.0).collect(), message })
 }
 
 /// What a part of uniform density has.
@@ -46,32 +70,41 @@ struct ShapeMass {
     central: f64,
     /// About the joint's axis.
     joint: f64,
+    /// Relative error of what was integrated.
+    error: f64,
 }
 
-/// From the density, where it is needed: an inertia that is not given, a part on a moving one, gravity.
+/// Is the shape asked for an inertia that is not given, a part on a moving one, or gravity?
+fn needs_shape(mechanism: &Mechanism, i: usize) -> bool {
+    let part = &mechanism.parts[i];
+    let carried = part.carrier.is_some_and(|c| c != mechanism.frame);
+    let gravity = mechanism.machine.supplement().gravity.is_some();
+    part.joint.is_some() && (part.inertia.is_none() || carried || gravity)
+}
+
+/// From the density, where it is needed. Parts that are planar in no direction share the `work` of integration; what
+/// it did not suffice for is told.
 fn shape(
     mechanism: &Mechanism,
     i: usize,
     model: &PartModel,
     values: &Values<f64>,
+    (work, budget): (usize, &mut OutlineBudget),
 ) -> Result<Option<ShapeMass>, Error> {
     let machine = &mechanism.machine;
     let Some(density) = machine.density(model, values)? else { return Ok(None) };
-    let part = &mechanism.parts[i];
-    let Some(joint) = part.joint else { return Ok(None) };
-    let carried = part.carrier.is_some_and(|c| c != mechanism.frame);
-    if part.inertia.is_some() && !carried && machine.supplement().gravity.is_none() {
-        return Ok(None);
-    }
-    let found = mass_properties(&mechanism.primitives, &model.csg).map_err(|e| {
-        machine.error(model.place, format!("no inertia of {}: {e}; expected a solid", model.name))
-    })?;
+    let Some(joint) = mechanism.parts[i].joint.filter(|_| needs_shape(mechanism, i)) else { return Ok(None) };
+    let found =
+        budget.half(|b| mass_properties_within(&mechanism.primitives, &model.csg, work, b)).map_err(|e| {
+            machine.error(model.place, format!("no inertia of {}: {e}; expected a solid", model.name))
+        })?;
     let axis = mechanism.pairs[joint].axis;
     Ok(Some(ShapeMass {
         mass: density * found.volume,
         center: found.center,
         central: density * found.moment_about(found.center, mechanism.plane.normal),
         joint: density * found.moment_about(axis.point, axis.direction),
+        error: found.error,
     }))
 }
 

@@ -17,6 +17,7 @@ mod masses;
 mod mechanism;
 mod mobility;
 mod near_miss;
+mod neighbours;
 mod pair;
 mod patch;
 mod placement;

@@ -9,6 +9,9 @@ use crate::system::{Body, Coordinate, Motion};
 use mainspring_geometry::Vec2;
 use mainspring_model::Error;
 
+/// Greatest friction, spring constant and force over the inertia, in the file's units.
+const MAX_RATE: f64 = 1e100;
+
 impl Mechanism {
     /// Everything contact and motion need.
     ///
@@ -163,8 +166,23 @@ impl Mechanism {
                 );
                 return self.fail(s.root, message);
             }
+            self.check_rates(c, s.root)?;
         }
         Ok(coordinates)
+    }
+
+    /// Squares of rates must be finite, or the motion is not. Coordinates of chains alone have no inertia of their own.
+    fn check_rates(&self, c: &Coordinate, root: usize) -> Result<(), Error> {
+        let rates = [(c.damping, "friction"), (c.stiffness, "spring constant"), (c.force, "spring's force")];
+        let too_large = |(value, _): &&(f64, &str)| (value / c.inertia).abs() > MAX_RATE;
+        let Some((value, what)) = rates.iter().find(too_large).filter(|_| c.inertia > 0.0) else {
+            return Ok(());
+        };
+        let message = format!(
+            "the {what} of {} is {value:e}, its inertia {:e}; expected a ratio below {MAX_RATE:e}",
+            c.name, c.inertia
+        );
+        self.fail(root, message)
     }
 
     /// The parts as contact sees them, in the working plane, in the order of [`Mechanism::parts`].
@@ -200,7 +218,7 @@ impl Mechanism {
         }
         self.with_reach(|parts| {
             for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.outline.is_none()) {
-                let touched = |j: &usize| *j != i && parts.may_touch(i, *j, self.plane.normal);
+                let touched = |j: &usize| *j != i && parts.may_touch(i, *j);
                 if let Some(j) = (0..self.parts.len()).find(touched) {
                     let place = part.tilted.map_or(part.place, |p| self.machine.place_of_primitive(p));
                     let why = part.note.as_deref().unwrap_or("it has no planar outline");

@@ -6,6 +6,7 @@
 
 use super::fit::Fit;
 use super::fits::{ShaftFit, ShaftMiss, Solid, end_patches, face_pairs, face_patches, shafts};
+use super::lower::PAIR_WORK;
 use super::pair::{Pair, PairKind};
 use super::patch::Scene;
 use super::plane_fit::PlanePatch;
@@ -67,7 +68,9 @@ pub(crate) fn find(
             let d = first.laterals[0].direction;
             let (mut patches, cut) = face_patches(scene, solids, clearance, |n| perpendicular(n, d));
             patches.extend(end_patches(scene, solids, d));
-            finding.too_many_faces = cut;
+            finding.too_many_faces = cut || scene.work.ran_out();
+            // What was found is judged, however much it cost.
+            scene.work.open(PAIR_WORK / 2);
             with_shaft(scene, &fits, patches)
         }
         None => faces_only(scene, solids, clearance),

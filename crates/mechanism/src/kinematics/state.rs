@@ -3,7 +3,7 @@
 use super::bounds::Bounds;
 use super::mechanism::{Mechanism, Part};
 use super::pair::PairKind;
-use super::reach::Parts;
+use super::reach::{Parts, Placed};
 use super::subsystems::Hold;
 use mainspring_geometry::Csg;
 use mainspring_model::Error;
@@ -88,7 +88,7 @@ impl Mechanism {
         self.with_reach(|parts| {
             let n = self.parts.len();
             let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-            all.filter(|&(i, j)| parts.may_touch(i, j, self.plane.normal)).collect()
+            all.filter(|&(i, j)| parts.may_touch(i, j)).collect()
         })
     }
 
@@ -99,15 +99,14 @@ impl Mechanism {
         let leaves: Vec<Vec<u32>> = csgs.iter().map(|c| super::compile::leaves(c)).collect();
         let hold = |p: &Part| Some(Hold { pair: p.joint?, carrier: p.carrier? });
         let holds: Vec<Option<Hold>> = self.parts.iter().map(hold).collect();
-        ask(&Parts {
+        let placed = Placed {
             primitives: &self.primitives,
             boxes: &boxes,
             csgs: &csgs,
             leaves: &leaves,
-            holds: &holds,
-            pairs: &self.pairs,
             tolerance: self.tolerance,
-        })
+        };
+        ask(&Parts::new(placed, &holds, &self.pairs, self.plane.normal))
     }
 }
 
