@@ -15,9 +15,12 @@ PIVOT = np.array([-4.5, 8.0])
 TOOTH = math.radians(30)
 
 
+def _mechanism(supplement: str, **changed: float) -> ms.Mechanism:
+    return ms.load(FOLDER / "ratchet.padl", FOLDER / supplement).compile(**changed)
+
+
 def _run(until: float, supplement: str = "ratchet.sup", start=None, **changed: float) -> ms.Simulation:
-    mechanism = ms.load(FOLDER / "ratchet.padl", FOLDER / supplement).compile(**changed)
-    return ms.simulate(mechanism, until, forces=True, positions=start)
+    return ms.simulate(_mechanism(supplement, **changed), until, forces=True, positions=start)
 
 
 def _moment(arm: np.ndarray, force: tuple[float, float]) -> float:
@@ -26,8 +29,7 @@ def _moment(arm: np.ndarray, force: tuple[float, float]) -> float:
 
 def _forces_by_hand(nose: float) -> tuple[float, float]:
     """Return the forces of the radial face and of the floor on the nose, from the moments on both parts."""
-    center = np.array([-nose, FLOOR + nose])
-    on_face, on_floor = center + (nose, 0), center - (0, nose)
+    on_face, on_floor = np.array([0, FLOOR + nose]), np.array([-nose, FLOOR])
     spring = {"wheel": 0.36 * math.radians(10_000), "pawl": 30 * math.radians(-60)}
     moments = [
         [_moment(on_face, (1, 0)), _moment(on_floor, (0, -1))],
@@ -112,10 +114,9 @@ def test_the_work_is_bounded(free):
 
 
 def test_predictions_of_both_ways():
-    load = lambda supplement: ms.load(FOLDER / "ratchet.padl", FOLDER / supplement).compile()  # noqa: E731
-    free = ms.predict(load("ratchet.sup"))
+    free = ms.predict(_mechanism("ratchet.sup"))
     assert free.status == "repeats"
     assert free.pattern.change["wheel"]["position"] == pytest.approx(-TOOTH, abs=1e-3)
-    blocked = json.loads(ms.predict(load("blocked.sup")).to_json())
+    blocked = json.loads(ms.predict(_mechanism("blocked.sup")).to_json())
     assert blocked["status"] == "comes_to_rest"
     assert blocked["rest"]["jammed"] is True
