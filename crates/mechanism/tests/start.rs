@@ -169,7 +169,7 @@ fn friction_and_springs_must_not_dwarf_the_inertia() {
     let message = sound("2e-308 5").unwrap_err();
     assert!(message.starts_with("test.sup:1:"), "{message}");
     assert!(
-        message.contains("the friction of lever is 5e0, its inertia 2e-308, expected a ratio below 1e100")
+        message.contains("the friction of lever is 5e0, its inertia 2e-308; expected a ratio below 1e100")
     );
     let message = sound("1e-99 0 SPRING 1 50").unwrap_err();
     assert!(message.contains("the spring constant of lever is 5e1"), "{message}");
