@@ -31,7 +31,13 @@ fn main() {
     let low: Vec<f64> =
         run.minima.iter().filter(|m| m.t > 0.0 && m.energy < 1e-5 * m.top).map(|m| m.t).collect();
     println!("median {:?}, least {:?}", times[times.len() / 2], times[0]);
-    println!("{:?} at {}: {:?}, rejected {rejected}, events {}", run.status, run.t, run.stats, run.events.len());
+    println!(
+        "{:?} at {}: {:?}, rejected {rejected}, events {}",
+        run.status,
+        run.t,
+        run.stats,
+        run.events.len()
+    );
     println!("residual {:e}, {:?}", run.energy.residual(), run.energy);
     println!("minima {low:?}");
 }

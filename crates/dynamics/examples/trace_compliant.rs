@@ -15,10 +15,21 @@ fn main() {
         let now = run.closed();
         let n = run.modes().len();
         if n != modes {
-            print!("{:.7} steps {:5} q {:.6} {:.6} {:.6} loss {:.4} |", run.t, run.stats.steps, run.q[0], run.q[1], run.q[2], run.energy.impacts);
+            print!(
+                "{:.7} steps {:5} q {:.6} {:.6} {:.6} loss {:.4} |",
+                run.t, run.stats.steps, run.q[0], run.q[1], run.q[2], run.energy.impacts
+            );
             for c in &now {
                 let it = &system.interactions[c.candidate.id.interaction as usize];
-                print!(" {}-{} {}/{} {:.2}{}", system.bodies[it.bodies.0].name, system.bodies[it.bodies.1].name, c.candidate.id.first, c.candidate.id.second, c.force, if c.active {""} else {"c"});
+                print!(
+                    " {}-{} {}/{} {:.2}{}",
+                    system.bodies[it.bodies.0].name,
+                    system.bodies[it.bodies.1].name,
+                    c.candidate.id.first,
+                    c.candidate.id.second,
+                    c.force,
+                    if c.active { "" } else { "c" }
+                );
             }
             println!();
         }
@@ -27,5 +38,16 @@ fn main() {
     println!("RIGID");
     let mut run = Simulation::new(&system, &source, options);
     run.run(&mut |_| true);
-    for e in &run.events { println!("{:.6} {:?} {}-{} {}/{} {:.4}", e.t, e.kind, system.bodies[e.bodies.0].name, system.bodies[e.bodies.1].name, e.contact.first, e.contact.second, e.impulse); }
+    for e in &run.events {
+        println!(
+            "{:.6} {:?} {}-{} {}/{} {:.4}",
+            e.t,
+            e.kind,
+            system.bodies[e.bodies.0].name,
+            system.bodies[e.bodies.1].name,
+            e.contact.first,
+            e.contact.second,
+            e.impulse
+        );
+    }
 }

@@ -87,7 +87,8 @@ fn a_damped_blow_rebounds_as_integrated() {
         // Greatest depth: two corners share the load.
         let deepest = (mass * measure(speed)).sqrt();
         let closed = times(&found, EventKind::Close)[0];
-        let depths = (0..=4000).map(|k| found.trajectory.state(0, closed + 0.3 * f64::from(k) / 4000.0).q - 0.1);
+        let depths =
+            (0..=4000).map(|k| found.trajectory.state(0, closed + 0.3 * f64::from(k) / 4000.0).q - 0.1);
         close(depths.fold(0.0, f64::max) / deepest, 1.0, 1e-4);
         balanced(&found, 1e-7);
     }

@@ -172,13 +172,7 @@ impl Pair<'_> {
 
     /// Pairs around a corner P near a corner Q: P against Q's sides, P's sides against Q. Against a round feature a
     /// corner has no alternatives but the smooth ones.
-    fn around_corners(
-        &self,
-        ids: (u32, u32),
-        state: &GapState,
-        reach: f64,
-        pairs: &mut Vec<(u32, u32)>,
-    ) {
+    fn around_corners(&self, ids: (u32, u32), state: &GapState, reach: f64, pairs: &mut Vec<(u32, u32)>) {
         let Some(p) = self.corner(false, ids.0, state, reach) else { return };
         let Some(q) = self.corner(true, ids.1, state, reach) else { return };
         pairs.extend(self.boundaries.1.neighbours(q).iter().map(|&b| (p, b)));

@@ -90,8 +90,7 @@ impl<'a> Group<'a> {
     fn gather(&mut self) {
         self.bodies.clear();
         for k in 0..self.tips.len() {
-            let (a, b) =
-                self.system.interactions[self.tips[k].candidate.id.interaction as usize].bodies;
+            let (a, b) = self.system.interactions[self.tips[k].candidate.id.interaction as usize].bodies;
             self.tips[k].sides = (self.place_of(a), self.place_of(b));
         }
         let chains = self.bodies.iter().flat_map(|&b| &self.system.bodies[b].chain);

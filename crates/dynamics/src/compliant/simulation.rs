@@ -68,12 +68,7 @@ enum Next {
 
 impl<'a> Compliant<'a> {
     /// Starts from the system's positions and velocities.
-    pub fn new(
-        system: &'a System,
-        source: &'a dyn ContactSource,
-        law: ContactLaw,
-        options: Options,
-    ) -> Self {
+    pub fn new(system: &'a System, source: &'a dyn ContactSource, law: ContactLaw, options: Options) -> Self {
         let (q, v): (Vec<f64>, Vec<f64>) =
             system.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
         let n = q.len();
@@ -219,7 +214,8 @@ impl<'a> Compliant<'a> {
 
     /// Finds a step that fits the tolerance and takes it into `stretch`. None if none does.
     fn try_steps(&mut self) -> Option<()> {
-        let own = |list: &[f64], group: &Group| group.coordinates.iter().map(|&i| list[i]).collect::<Vec<_>>();
+        let own =
+            |list: &[f64], group: &Group| group.coordinates.iter().map(|&i| list[i]).collect::<Vec<_>>();
         let (q, v) = (own(&self.q, &self.group), own(&self.v, &self.group));
         let mut a = vec![0.0; q.len()];
         self.step.resize(q.len());
@@ -412,8 +408,8 @@ impl<'a> Compliant<'a> {
         let c = &self.world.system.coordinates[i];
         let force = c.force.abs() + (c.stiffness * self.q[i]).abs();
         let acceleration = c.free_acceleration(self.q[i], self.v[i]);
-        let still = self.v[i].abs() <= 1e-13 * self.speeds[i]
-            && acceleration.abs() <= 1e-13 * force / c.inertia;
+        let still =
+            self.v[i].abs() <= 1e-13 * self.speeds[i] && acceleration.abs() <= 1e-13 * force / c.inertia;
         if still {
             self.v[i] = 0.0;
             self.set_path(i, Path::Rest { q: self.q[i] });
