@@ -4,7 +4,8 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use mainspring_dynamics::{Compliant, ContactLaw, Options};
+use mainspring_dynamics::{Compliant, Options};
+use mainspring_mechanism::ContactLaw;
 use std::time::Instant;
 
 fn main() {
@@ -14,7 +15,7 @@ fn main() {
     let system = common::escapement();
     let source = system.direct_search();
     let law = ContactLaw::default();
-    let law = ContactLaw { stiffness: law.stiffness * factor, damping: law.damping * factor, ..law };
+    let law = ContactLaw { e: law.e * factor, d: law.d * factor, ..law };
     let mut times = Vec::new();
     let mut last = None;
     for _ in 0..runs as usize {

@@ -1,13 +1,14 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
-use mainspring_dynamics::{Compliant, ContactLaw, Options, Simulation};
+use mainspring_dynamics::{Compliant, Options, Simulation};
+use mainspring_mechanism::ContactLaw;
 fn main() {
     let argument = |k: usize, or: f64| std::env::args().nth(k).and_then(|x| x.parse().ok()).unwrap_or(or);
     let (rtol, factor, until) = (argument(1, 1e-6), argument(2, 1.0), argument(3, 8.0));
     let system = common::escapement();
     let source = system.direct_search();
     let law = ContactLaw::default();
-    let law = ContactLaw { stiffness: law.stiffness * factor, damping: law.damping * factor, ..law };
+    let law = ContactLaw { e: law.e * factor, d: law.d * factor, ..law };
     let options = Options { until, rtol, ..Options::default() };
     let mut run = Compliant::new(&system, &source, law, options.clone());
     let mut modes = 0;

@@ -28,7 +28,7 @@ mod tableau;
 mod watch;
 mod world;
 
-pub use compliant::{Compliant, ContactLaw};
+pub use compliant::Compliant;
 pub use energy::{Energy, kinetic, potential};
 pub use events::{Event, EventKind};
 pub use flight::{Bounds, Flight, State};

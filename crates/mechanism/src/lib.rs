@@ -2,6 +2,7 @@
 
 // Contact: features, gaps, where they may close.
 mod boundary;
+mod contact_law;
 mod feature;
 mod gap;
 mod hessian;

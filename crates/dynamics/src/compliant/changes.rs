@@ -4,6 +4,7 @@
 
 use super::group::{Group, TipState};
 use super::stretch::Stretch;
+use crate::root::narrow;
 use mainspring_mechanism::{Overlaps, Successor, is_on};
 
 /// A change at one tip.
@@ -176,36 +177,22 @@ impl Search<'_, '_> {
         }
     }
 
-    /// The first `x` found past the change, which happens after `before` and is seen at `seen`: regula falsi of
-    /// Illinois with bisections, to the grain of the clock.
+    /// The first `x` found past the change, which happens after `before` and is seen at `seen`.
     fn locate(&mut self, change: Change, (before, seen): (f64, f64)) -> f64 {
-        let (mut a, mut b) = (before, seen);
-        let (mut fa, mut fb) = (self.value(&change, a), self.value(&change, b));
+        let Stretch { t0, h, .. } = *self.stretch;
+        let at = |s: &mut Self, x: f64| (t0 + x * h, s.value(&change, x));
+        let mut good = at(self, before);
         // A tip just made begins at no depth: from there it first has to be seen open.
-        if fa <= 0.0 {
+        if good.1 <= 0.0 {
             let Some((x, value)) = self.positive_between(&change, before, seen) else { return before };
-            (a, fa) = (x, value);
+            good = (t0 + x * h, value);
         }
-        let grain = self.stretch.grain();
-        let mut last_negative = None;
-        for k in 0..80 {
-            if b - a <= grain {
-                break;
-            }
-            let secant = b - fb * (b - a) / (fb - fa);
-            let x = if k % 6 == 5 || !secant.is_finite() { 0.5 * (a + b) } else { secant };
-            let x = x.clamp(a + 0.25 * grain, b - 0.25 * grain);
-            let f = self.value(&change, x);
-            if f < 0.0 {
-                (b, fb) = (x, f);
-                fa *= if last_negative == Some(true) { 0.5 } else { 1.0 };
-            } else {
-                (a, fa) = (x, f);
-                fb *= if last_negative == Some(false) { 0.5 } else { 1.0 };
-            }
-            last_negative = Some(f < 0.0);
+        let bad = at(self, seen);
+        if bad.1 >= 0.0 {
+            return seen;
         }
-        b
+        let (_, past) = narrow(|t| self.value(&change, (t - t0) / h), good, bad);
+        (past.0 - t0) / h
     }
 
     /// Some place between where the value is positive: halving towards the start.

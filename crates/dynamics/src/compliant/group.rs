@@ -7,10 +7,9 @@
 //! Which tips there are and which are clamped is explicit state; the law is carried on smoothly beyond o = 0 and
 //! beyond the clamp, and the changes are located on the dense output.
 
-use super::law::ContactLaw;
 use super::loads::{LinearLoads, Loads};
 use super::rosenbrock::{Accelerations, Jacobian};
-use mainspring_mechanism::{Candidate, GapState, Placed, Row, System, gap_state};
+use mainspring_mechanism::{Candidate, ContactLaw, GapState, Placed, Row, System, gap_state};
 
 /// A place where two parts overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,12 +2,10 @@
 
 mod changes;
 mod group;
-mod law;
 mod loads;
 mod rosenbrock;
 mod simulation;
 mod stretch;
 mod tableau;
 
-pub use law::ContactLaw;
 pub use simulation::Compliant;

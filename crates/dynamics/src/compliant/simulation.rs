@@ -2,7 +2,6 @@
 
 use super::changes::{Change, Search};
 use super::group::Group;
-use super::law::ContactLaw;
 use super::rosenbrock::{Accelerations, Jacobian, Rosenbrock, Start};
 use super::stretch::Stretch;
 use crate::energy::{Energy, friction_loss, kinetic, potential};
@@ -18,7 +17,7 @@ use crate::simulation::{
     AT_REST, MOST_AT_ONCE, Mode, Options, Run, Stats, Status, natural_time, position_scales,
 };
 use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, ContactId, ContactSource, Overlaps, System};
+use mainspring_mechanism::{Candidate, ContactId, ContactLaw, ContactSource, Overlaps, System};
 
 /// How far outside their cones, in radians, the normals of a second tip of the same piece may point.
 const FLUSH: f64 = 0.05;
@@ -119,7 +118,8 @@ impl<'a> Compliant<'a> {
             self.world.refresh(interaction, &self.q, 2.0 * within);
             for k in 0..self.world.listed(interaction).len() {
                 let candidate = self.world.listed(interaction)[k];
-                let touch = self.world.touch(&candidate, &self.q);
+                let (a, b) = self.world.place(&candidate, &self.q);
+                let touch = self.world.touch(&candidate, (&a, &b));
                 if touch.state.gap.abs() <= within
                     && touch.rate(&self.v) <= 0.0
                     && is_standing(&mut self.world, &touch, &self.q, &self.v, &self.speeds)
@@ -437,7 +437,8 @@ impl<'a> Compliant<'a> {
         for (id, floor) in std::mem::take(&mut self.released) {
             let listed = self.world.listed(id.interaction as usize);
             let Some(candidate) = listed.iter().copied().find(|c| c.id == id) else { continue };
-            if self.world.touch(&candidate, &self.q).state.gap <= open {
+            let (a, b) = self.world.place(&candidate, &self.q);
+            if self.world.touch(&candidate, (&a, &b)).state.gap <= open {
                 self.released.push((id, floor));
             }
         }

@@ -36,21 +36,12 @@ impl Stretch {
         group.move_to(|k| (self.positions[k].at(x), self.velocities[k].at(x)));
     }
 
-    /// The least fraction of the step that the clock can tell.
-    pub fn grain(&self) -> f64 {
-        4.0 * f64::EPSILON * (1.0 + self.t0.abs()) / self.h
-    }
-
-    /// The path of the group's coordinate `k`. Bounds are those of samples with a quarter added: the step's error is
-    /// controlled.
+    /// The path of the group's coordinate `k`, with bounds over all of it.
     pub fn path(&self, k: usize) -> Path {
-        let (q, v) = (self.positions[k], self.velocities[k]);
-        let samples = (0..=4).map(|i| f64::from(i) / 4.0);
-        let mut bounds = Bounds::default();
-        for x in samples {
-            bounds.speed = bounds.speed.max(1.25 * v.at(x).abs());
-            bounds.acceleration = bounds.acceleration.max(1.25 * (v.slope(x) / self.h).abs());
-        }
-        Path::Step { t0: self.t0, h: self.h, q, v, bounds }
+        let (q, v, h) = (self.positions[k], self.velocities[k], self.h);
+        let [speed, first, second] = v.bounds();
+        // The slope of positions is the velocity only to the tolerance.
+        let bounds = Bounds { speed: 1.02 * speed, acceleration: 1.02 * first / h };
+        Path::Step { t0: self.t0, h, q, v, bounds, jerk: 1.02 * second / (h * h) }
     }
 }

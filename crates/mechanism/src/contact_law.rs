@@ -6,43 +6,27 @@
 //! o the depth of overlap, ȯ its rate. Of the power `l ȯ` put in, `E o ȯ` is stored as `½ E o²` and `D M o ȯ²` is lost;
 //! where the clamp holds the force at zero, the stored energy is lost as the overlap falls (`−E o ȯ`).
 
-/// Constants of Eq. 4 in the file's units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactLaw {
-    /// E: force per depth.
-    pub stiffness: f64,
-    /// D: damping.
-    pub damping: f64,
-    /// M: what makes the damping grow with the depth.
-    pub factor: f64,
-}
-
-impl Default for ContactLaw {
-    /// The values of all examples of the paper.
-    fn default() -> Self {
-        Self { stiffness: 1e5, damping: 1e4, factor: 100.0 }
-    }
-}
+use crate::forces::ContactLaw;
 
 impl ContactLaw {
     /// D M.
     pub fn viscosity(&self) -> f64 {
-        self.damping * self.factor
+        self.d * self.m
     }
 
     /// `E + D M ȯ`: the force per depth; the clamp holds where it is negative.
     pub fn slope(&self, rate: f64) -> f64 {
-        self.stiffness + self.viscosity() * rate
+        self.e + self.viscosity() * rate
     }
 
     /// ½ E o².
     pub fn stored(&self, depth: f64) -> f64 {
-        0.5 * self.stiffness * depth * depth
+        0.5 * self.e * depth * depth
     }
 
     /// Power lost: `l ȯ − E o ȯ`.
     pub fn loss(&self, depth: f64, rate: f64, clamped: bool) -> f64 {
         let slope = if clamped { 0.0 } else { self.slope(rate) };
-        depth * rate * (slope - self.stiffness)
+        depth * rate * (slope - self.e)
     }
 }
