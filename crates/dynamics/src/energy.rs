@@ -12,17 +12,21 @@ pub struct Energy {
     pub last: f64,
     /// Lost to viscous friction: ∫ Σ h q̇² dt, by quadrature of the motion and not by difference.
     pub friction: f64,
-    /// Lost at impacts: Σ ½ Δq̇ᵀ M Δq̇.
+    /// Lost at impacts: Σ ½ Δq̇ᵀ M Δq̇; with compliant contact what the contacts took.
     pub impacts: f64,
+    /// Stored in overlaps at the end: Σ ½ E o² (compliant contact; 0 with rigid contact).
+    pub contact_stored: f64,
     /// Greatest kinetic energy.
     pub kinetic_max: f64,
 }
 
 impl Energy {
-    /// `(initial − last − friction − impacts) / max(friction + impacts, kinetic_max)`; 0 when nothing moved.
+    /// `(initial − last − contact_stored − friction − impacts) / max(friction + impacts, kinetic_max)`; 0 when nothing
+    /// moved.
     pub fn residual(&self) -> f64 {
         let scale = (self.friction + self.impacts).max(self.kinetic_max);
-        if scale > 0.0 { (self.initial - self.last - self.friction - self.impacts) / scale } else { 0.0 }
+        let left = self.last + self.contact_stored;
+        if scale > 0.0 { (self.initial - left - self.friction - self.impacts) / scale } else { 0.0 }
     }
 }
 

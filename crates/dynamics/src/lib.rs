@@ -6,6 +6,7 @@
 mod chatter;
 mod clearance;
 mod complementarity;
+mod compliant;
 mod component;
 mod energy;
 mod events;
@@ -27,6 +28,7 @@ mod tableau;
 mod watch;
 mod world;
 
+pub use compliant::Compliant;
 pub use energy::{Energy, kinetic, potential};
 pub use events::{Event, EventKind};
 pub use flight::{Bounds, Flight, State};

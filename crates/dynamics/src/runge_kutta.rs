@@ -99,6 +99,13 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
+    /// From its first coefficients F₀ … F₃.
+    pub fn short(start: f64, first: [f64; 4]) -> Self {
+        let mut coefficients = [0.0; POWERS];
+        coefficients[..4].copy_from_slice(&first);
+        Self { start, coefficients }
+    }
+
     pub fn at(&self, x: f64) -> f64 {
         let mut y = 0.0;
         for (i, f) in self.coefficients.iter().rev().enumerate() {

@@ -56,9 +56,9 @@ pub struct Stats {
 }
 
 /// Remaining energy, relative to the greatest kinetic energy, at which flights count as at rest.
-const AT_REST: f64 = 1e-13;
+pub(crate) const AT_REST: f64 = 1e-13;
 /// Events allowed without any passage of time.
-const MOST_AT_ONCE: u32 = 200;
+pub(crate) const MOST_AT_ONCE: u32 = 200;
 
 /// Parts in contact are integrated at least this well: what a step leaves stays far below `OVERLAP`.
 const LOOSEST: f64 = 1e-7;
@@ -537,7 +537,7 @@ impl<'a> Simulation<'a> {
 }
 
 /// The time in which a coordinate's springs or friction act: √(I/k), or I/h, or 1.
-fn natural_time(c: &Coordinate) -> f64 {
+pub(crate) fn natural_time(c: &Coordinate) -> f64 {
     if c.stiffness > 0.0 {
         (c.inertia / c.stiffness).sqrt()
     } else if c.damping > 0.0 {
@@ -548,7 +548,7 @@ fn natural_time(c: &Coordinate) -> f64 {
 }
 
 /// Positions change gaps by lever arms: a tolerance on gaps relative to the size, seen by each coordinate.
-fn position_scales(world: &World) -> Vec<f64> {
+pub(crate) fn position_scales(world: &World) -> Vec<f64> {
     let mut arms = vec![0.0f64; world.system.coordinates.len()];
     for arm in world.arms.iter().flatten() {
         arms[arm.coordinate] = arms[arm.coordinate].max(arm.length);

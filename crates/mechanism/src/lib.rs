@@ -1,18 +1,25 @@
 //! From solids to a mechanism: kinematic pairs, subsystems, possible interactions, gap functions.
 
 // Contact: features, gaps, where they may close.
+mod boundary;
+mod contact_law;
 mod feature;
 mod gap;
+mod hessian;
 mod interaction;
+mod overlap;
 mod placed;
 mod relative;
 mod source;
 mod system;
 mod tree;
 
+pub use boundary::Boundary;
 pub use feature::{Cone, Feature, FeatureName, FeatureShape, features};
 pub use gap::{GapKind, GapState, gap, gap_state};
+pub use hessian::Hessian;
 pub use interaction::{Exclusion, Interaction, System};
+pub use overlap::{Overlaps, Successor, is_on};
 pub use placed::{Field, MAX_CHAIN, MAX_ROW, Placed, PointMotion, Row};
 pub use relative::{Approach, Relative, approach};
 pub use source::{Candidate, ContactId, ContactSource, DirectSearch};
