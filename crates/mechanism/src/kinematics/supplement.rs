@@ -71,7 +71,10 @@ fn densities(mechanism: &mut Mechanism, values: &Values<f64>) -> Result<(), Erro
         let (model, axis) = (&machine.parts()[i], mechanism.pairs[joint].axis);
         let properties = budget
             .half(|b| mass_properties_within(&mechanism.primitives, &model.csg, work, b))
-            .map_err(|e| machine.error(model.place, format!("no inertia of {}: {e}", model.name)))?;
+            .map_err(|e| {
+                machine
+                    .error(model.place, format!("no inertia of {}: {e}, expected finite sizes", model.name))
+            })?;
         let per_density = if slides(mechanism, i) {
             properties.volume
         } else {
@@ -125,7 +128,9 @@ fn spread(mechanism: &Mechanism, given: &[StateValue], what: &str) -> Result<Vec
         match roots[s] {
             Some((known, _)) if (known - at_root).abs() > SAME_POSITION * (1.0 + known.abs()) => {
                 let name = &mechanism.parts[state.part].name;
-                let message = format!("the {what} of {name} contradicts that of a gear in mesh with it");
+                let message = format!(
+                    "the {what} of {name} contradicts that of a gear in mesh with it, expected values in the gears' ratio"
+                );
                 return Err(mechanism.machine.error(state.place, message));
             }
             _ => roots[s] = Some((at_root, state.place)),
