@@ -103,7 +103,8 @@ def name(row: Row, side: int, places: list[tuple[float, float]]) -> str:
     """Return the engine's name: over Mainspring's lines, at the far end of the peers'."""
     if row.engine == "mainspring":
         a, b = places[0]
-        return text(a - side * 6, b - 13, row.label, "name", "start" if side > 0 else "end")
+        anchor = "start" if side > 0 or a < LEFT + 130 else "end"
+        return text(a + (6 if anchor == "end" else -6), b - 13, row.label, "name", anchor)
     a, b = places[-1]
     return text(a + 10, b + 4, row.label, "name")
 
@@ -111,7 +112,7 @@ def name(row: Row, side: int, places: list[tuple[float, float]]) -> str:
 def curve(row: Row, x: Axis, y: Axis, side: int) -> list[str]:
     """Return an engine's line with its name and labelled points; the one of the table is filled."""
     number = list(COLOURS).index(row.label)
-    places = [(x.at(p.seconds), y.at(p.error)) for p in row.points]
+    places = [(x.at(p.seconds), y.at(max(p.error, row.doubt))) for p in row.points]
     line = " ".join(f"{a:.1f},{b:.1f}" for a, b in places)
     found = [f'<g style="--c:var(--c{number})"><polyline class="line" points="{line}"/>']
     for p, (a, b) in zip(row.points, places, strict=True):
@@ -134,7 +135,11 @@ def picture(rows: list[Row]) -> str:
         style(),
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="var(--paper)"/>',
         text(LEFT, 24, title, "head"),
-        text(LEFT, 44, "each engine against its own limit; filled: the setting of the table"),
+        text(
+            LEFT,
+            44,
+            "against each engine's own limit, no smaller than that limit's doubt; filled: the setting of the table",
+        ),
         *grid(x, y),
         text(WIDTH - RIGHT, HEIGHT - 12, "wall time of the engine's own stepping, one thread", anchor="end"),
     ]
