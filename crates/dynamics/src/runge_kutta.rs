@@ -106,6 +106,17 @@ impl Polynomial {
         Self { start, coefficients }
     }
 
+    /// dy/dx of a polynomial made by `short`.
+    pub fn short_slope(&self) -> Self {
+        let p = self.powers();
+        let [a, b, c, d] = [p[1], 2.0 * p[2], 3.0 * p[3], 4.0 * p[4]];
+        Self::short(a, [b + c + d, -(c + d), -d, 0.0])
+    }
+
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { start: factor * self.start, coefficients: self.coefficients.map(|c| factor * c) }
+    }
+
     pub fn at(&self, x: f64) -> f64 {
         let mut y = 0.0;
         for (i, f) in self.coefficients.iter().rev().enumerate() {

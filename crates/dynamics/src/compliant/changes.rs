@@ -28,7 +28,7 @@ pub struct Found {
 }
 
 /// Nodes of the Lobatto rule of four points on [0, 1] but for the first, and all weights: exact for degree 5.
-pub const NODES: [f64; 3] = [0.276_393_202_250_021_03, 0.723_606_797_749_979, 1.0];
+pub const NODES: [f64; 3] = [0.276_393_202_250_021, 0.723_606_797_749_979, 1.0];
 const WEIGHTS: [f64; 4] = [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0];
 
 /// Looks for changes over one step.

@@ -192,13 +192,15 @@ impl<'a> Group<'a> {
         self.zeros = zeros;
         let (slope, viscous) = (self.law.slope(rate), depth * self.law.viscosity());
         let force = depth * slope;
-        for j in 0..row.count {
-            let turning: f64 = (0..row.count).map(|m| hessian[j][m] * self.v[row.coordinate[m]]).sum();
+        let place = |i: usize| self.places[row.coordinate[i]];
+        for (j, line) in hessian.iter().enumerate().take(row.count) {
+            let turning: f64 =
+                row.coordinate.iter().zip(line).take(row.count).map(|(&i, h)| h * self.v[i]).sum();
             let by_position = -slope * row.value[j] - viscous * turning;
             let by_velocity = -viscous * row.value[j];
-            for i in 0..row.count {
-                let at = self.places[row.coordinate[i]] * n + self.places[row.coordinate[j]];
-                out.by_position[at] += row.value[i] * by_position + force * hessian[i][j];
+            for (i, bend) in line.iter().enumerate().take(row.count) {
+                let at = place(i) * n + place(j);
+                out.by_position[at] += row.value[i] * by_position + force * bend;
                 out.by_velocity[at] += row.value[i] * by_velocity;
             }
         }

@@ -34,6 +34,8 @@ pub struct Compliant<'a> {
     speeds: Vec<f64>,
     scales: Vec<f64>,
     paths: Vec<Path>,
+    /// The same for the search for contacts.
+    strict: Vec<Path>,
     since: Vec<f64>,
     /// Contacts that parted just now, not to be looked for before a positive gap was seen.
     released: Vec<(ContactId, f64)>,
@@ -82,6 +84,7 @@ impl<'a> Compliant<'a> {
             speeds: v.iter().map(|v| v.abs()).collect(),
             scales,
             paths: q.iter().map(|&q| Path::Rest { q }).collect(),
+            strict: vec![],
             since: vec![0.0; n],
             released: vec![],
             modes: vec![],
@@ -277,7 +280,13 @@ impl<'a> Compliant<'a> {
             .map(|tip| (tip.candidate.id, Watch::Closed))
             .chain(self.released.iter().map(|&(id, floor)| (id, Watch::Released { floor })))
             .collect();
-        let stretch = crate::search::Stretch { paths: &self.paths, from: self.t, to };
+        self.strict.clone_from(&self.paths);
+        if !self.group.tips.is_empty() {
+            for (k, &i) in self.group.coordinates.iter().enumerate() {
+                self.strict[i] = self.stretch.strict_path(k);
+            }
+        }
+        let stretch = crate::search::Stretch { paths: &self.strict, from: self.t, to };
         let (speeds, overlaps, tips) = (&self.speeds, &self.overlaps, &self.group.tips);
         let mut real = |world: &mut World, touch: &Touch, q: &[f64], v: &[f64]| {
             let state = &touch.state;

@@ -38,10 +38,19 @@ impl Stretch {
 
     /// The path of the group's coordinate `k`, with bounds over all of it.
     pub fn path(&self, k: usize) -> Path {
-        let (q, v, h) = (self.positions[k], self.velocities[k], self.h);
+        self.path_with(self.positions[k], self.velocities[k], 1.0)
+    }
+
+    /// The same for the search for contacts: its velocities are the exact slopes of its positions, as gaps and their
+    /// rates must fit each other to rounding.
+    pub fn strict_path(&self, k: usize) -> Path {
+        self.path_with(self.positions[k], self.positions[k].short_slope(), self.h)
+    }
+
+    fn path_with(&self, q: Polynomial, v: Polynomial, over: f64) -> Path {
+        let (h, v) = (self.h, v.scaled(1.0 / over));
         let [speed, first, second] = v.bounds();
-        // The slope of positions is the velocity only to the tolerance.
-        let bounds = Bounds { speed: 1.02 * speed, acceleration: 1.02 * first / h };
-        Path::Step { t0: self.t0, h, q, v, bounds, jerk: 1.02 * second / (h * h) }
+        let bounds = Bounds { speed, acceleration: first / h };
+        Path::Step { t0: self.t0, h, q, v, bounds, jerk: second / (h * h) }
     }
 }
