@@ -56,7 +56,8 @@ mod tests {
     /// Smooth functions take few evaluations, and the bracket ends at the grain.
     #[test]
     fn smooth_sign_changes_are_cheap_and_exact() {
-        let cases: [(fn(f64) -> f64, f64, f64); 4] = [
+        type Case = (fn(f64) -> f64, f64, f64);
+        let cases: [Case; 4] = [
             (|t| t.sin() - 0.3, 0.0, 1.5),
             (|t| (t - 0.7).powi(3), 0.0, 1.5),
             (|t| t.exp() - 1.0, -3.0, 1.0),

@@ -172,9 +172,9 @@ fn bernstein_bound(p: &[f64]) -> f64 {
     let mut b = [0.0; POWERS + 1];
     b[..=n].copy_from_slice(p);
     let mut binomial = 1.0;
-    for k in 1..=n {
+    for (k, b) in b.iter_mut().enumerate().take(n + 1).skip(1) {
         binomial *= (n + 1 - k) as f64 / k as f64;
-        b[k] /= binomial;
+        *b /= binomial;
     }
     // Sums with binomial weights, as in Pascal's triangle.
     for round in 1..=n {

@@ -538,7 +538,8 @@ impl<'a> Compliant<'a> {
             self.trajectory.pieces[i].push(piece);
         }
         self.energy.kinetic_max = self.energy.kinetic_max.max(self.minima.top);
-        self.energy.last = kinetic(self.world.system, &self.q, &self.v) + potential(self.world.system, &self.q);
+        self.energy.last =
+            kinetic(self.world.system, &self.q, &self.v) + potential(self.world.system, &self.q);
         self.closed();
         self.energy.contact_stored = self.group.stored();
         self.stats.gap_evaluations = self.world.evaluations + self.group.evaluations;
