@@ -396,7 +396,7 @@ impl<'a> Compliant<'a> {
                 let state = self.group.state(k);
                 let tip = self.group.tips[k];
                 let force = self.group.force_of(k, &state).max(0.0);
-                Closed { candidate: tip.candidate, force, active: !tip.clamped }
+                Closed { candidate: tip.candidate, gap: -state.depth, force, active: !tip.clamped }
             })
             .collect()
     }
