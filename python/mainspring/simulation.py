@@ -85,11 +85,13 @@ class Event:
 class Energy:
     """The energy account of a run; losses positive.
 
-    `residual` is (initial - final - friction - impacts) / max(friction + impacts, kinetic_max).
+    `work` is done by drives and by constant torques and forces. `residual` is
+    (initial + work - final - friction - impacts) / max(friction + impacts, kinetic_max).
     """
 
     initial: float
     final: float
+    work: float
     friction: float
     impacts: float
     kinetic_max: float

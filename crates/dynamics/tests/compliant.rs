@@ -139,7 +139,6 @@ fn results_converge_with_the_tolerance() {
     balanced(&runs[1], 1e-6);
     balanced(&runs[2], 1e-7);
     assert!(runs[0].stats.steps < 2_000, "{:?}", runs[0].stats);
-    // Minima by an independent stiff integration are in docs/decisions/compliant-contact.md.
     close(finest, 36.903_286_642, 1e-7);
 }
 
@@ -164,7 +163,8 @@ fn changed_machines_agree_with_rigid_contact() {
         let relaxed = c.force / c.stiffness;
         *c = coordinate(&c.name, c.inertia, c.damping, (constant, relaxed));
     };
-    let changes: [(&dyn Fn(&mut [Coordinate]), f64); 6] = [
+    type Change<'c> = (&'c dyn Fn(&mut [Coordinate]), f64);
+    let changes: [Change; 6] = [
         (&|c| spring(&mut c[2], 25.0), 28.518_098_7),
         (&|c| c[2].inertia = 15.0, 32.258_884_9),
         (&|c| c[2].inertia = 30.0, 44.961_627_4),
