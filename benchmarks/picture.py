@@ -138,7 +138,7 @@ def picture(rows: list[Row]) -> str:
         text(
             LEFT,
             44,
-            "against each engine's own limit, no smaller than that limit's doubt; filled: the setting of the table",
+            "against each engine's own limit, at least that limit's doubt; filled: the setting of the table",
         ),
         *grid(x, y),
         text(WIDTH - RIGHT, HEIGHT - 12, "wall time of the engine's own stepping, one thread", anchor="end"),
