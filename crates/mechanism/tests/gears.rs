@@ -130,7 +130,7 @@ fn contradicting_positions_of_gears_are_refused() {
     let error = try_compile(&text, "POSITION g0 10\nPOSITION g1 10\n", &CompileOptions::default());
     let error = error.map(|_| ()).unwrap_err();
     // Found by fuzzing: it did not say what was expected.
-    let message = "contradicts that of a gear in mesh with it, expected values in the gears' ratio";
+    let message = "contradicts that of a gear in mesh with it; expected values that agree";
     assert!(error.message.contains(message) && error.line == 2, "{error}");
     assert!(try_compile(&text, "POSITION g0 10\nPOSITION g1 -20\n", &CompileOptions::default()).is_ok());
     let m = try_compile(&text, "", &CompileOptions::default()).unwrap();
