@@ -76,6 +76,28 @@ fn tilted_parts_with_a_density() {
     assert!(known.iter().all(|k| (k / inertia - 1.0).abs() < 0.01), "{known:?}");
 }
 
+/// Each of many parts costs what is near it, not the whole plate it stands on: otherwise the work ran out, gears
+/// without their pairs counted as parts that overlap, and the error was wrong.
+#[test]
+fn a_train_of_a_thousand_gears_on_one_plate() {
+    const GEARS: usize = 1_000;
+    let holes =
+        format!("SYMMETRIC_UNION(cyl(d=1) at (movx=2, movy=3), x, TRANSLATIONAL, {GEARS}, {})", 2 * GEARS);
+    let plate = format!("(blo(x={}, y=6) dif {holes}) at (movz=-1)", 2 * GEARS + 4);
+    let names: Vec<String> = (0..GEARS).map(|i| format!("p{i}")).collect();
+    let mut text = format!("frame = {plate}\n");
+    for i in 0..GEARS {
+        writeln!(text, "g{i} = cyl(d=2.2)\nattr g{i} : gear = 1").unwrap();
+        writeln!(text, "p{i} = (g{i} un cyl(d=1) at (movz=-1)) at (movx={}, movy=3)", 2 + 2 * i).unwrap();
+    }
+    let mut parts = vec!["frame"];
+    parts.extend(names.iter().map(String::as_str));
+    let train = soon(&machine(&text, &parts));
+    let of = |kind: PairKind| train.pairs.iter().filter(|p| p.kind == kind).count();
+    assert_eq!((of(PairKind::Revolute), of(PairKind::Gear)), (GEARS, GEARS - 1));
+    assert_eq!(train.subsystems.len(), 1);
+}
+
 /// The faces of bars across each other cost all the work they may, and the shaft under them is found all the same.
 #[test]
 fn a_shaft_under_many_faces() {

@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::fits::{Solid, near_reach};
+use super::local::{local, nearby};
 use super::near_miss::{Miss, relevant};
 use super::neighbours::neighbours;
 use super::pair::Pair;
@@ -54,10 +55,12 @@ pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f6
     let mut findings = Vec::new();
     // Parts further from each other than this form no pair and miss none.
     let reach = |s: &Solid<'_>| s.bounds.grown(near_reach(s) + clearance + 2.0 * scene.tolerance);
-    let candidates = neighbours(&solids.iter().map(reach).collect::<Vec<_>>(), MAX_NEIGHBOURS);
+    let reaches: Vec<Bounds> = solids.iter().map(reach).collect();
+    let candidates = neighbours(&reaches, MAX_NEIGHBOURS);
     for (i, j) in candidates.pairs {
         scene.work.open(PAIR_WORK);
-        let mut finding = search::find(scene, [&solids[i], &solids[j]], (i, j), clearance);
+        let zone = reaches[i].common(&reaches[j]).grown(4.0 * scene.tolerance);
+        let mut finding = find(scene, [&solids[i], &solids[j]], (i, j), clearance, &zone);
         finding.too_many_faces |= scene.work.ran_out() || !scene.work.spend(1);
         let near = solids[i].bounds.touches(&solids[j].bounds);
         if near || finding.too_many_faces || finding.says_something() {
@@ -82,6 +85,20 @@ pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f6
     let cut_short = findings.iter().filter(|(_, f)| f.too_many_faces).map(|(parts, _)| *parts).collect();
     let pairs = findings.into_iter().filter_map(|(_, f)| f.pair).map(|f| f.pair).collect();
     Lower { pairs, misses, cut_short, misses_cut_short, crowded: candidates.cut_short }
+}
+
+/// Both parts are searched where they are near each other.
+fn find(
+    scene: &Scene<'_>,
+    solids: [&Solid<'_>; 2],
+    parts: (usize, usize),
+    clearance: f64,
+    zone: &Bounds,
+) -> search::Finding {
+    let csgs = solids.map(|s| nearby(scene, s, zone));
+    let [a, b] = [0, 1].map(|k| csgs[k].as_ref().map(|csg| local(scene, solids[k], csg, zone)));
+    let near = [a.as_ref().unwrap_or(solids[0]), b.as_ref().unwrap_or(solids[1])];
+    search::find(scene, near, solids, parts, clearance)
 }
 
 /// A fit that leaves a way out holds only while something keeps the part in it: it makes a pair for a part that has

@@ -12,6 +12,7 @@ mod fits;
 mod gears;
 mod joint_forces;
 mod linear;
+mod local;
 mod lower;
 mod masses;
 mod mechanism;

@@ -52,9 +52,11 @@ pub(crate) enum Loose {
     OffCentre { primitives: [u32; 2], plays: (f64, f64) },
 }
 
+/// `solids` are the parts as far as they are near each other, `whole` all of them.
 pub(crate) fn find(
     scene: &Scene<'_>,
     solids: [&Solid<'_>; 2],
+    whole: [&Solid<'_>; 2],
     parts: (usize, usize),
     clearance: f64,
 ) -> Finding {
@@ -76,7 +78,7 @@ pub(crate) fn find(
         None => faces_only(scene, solids, clearance),
     };
     match found {
-        Ok(Some(fit)) => finding.pair = Some(fit.into_pair(scene, solids, parts)),
+        Ok(Some(fit)) => finding.pair = Some(fit.into_pair(scene, whole, parts)),
         Ok(None) => {}
         Err(loose) => finding.loose = Some(loose),
     }

@@ -41,12 +41,6 @@ impl<'a> Extent<'a> {
     }
 }
 
-fn common([a, b]: [&Bounds; 2]) -> Bounds {
-    let low = Vec3::new(a.low.x.max(b.low.x), a.low.y.max(b.low.y), a.low.z.max(b.low.z));
-    let high = Vec3::new(a.high.x.min(b.high.x), a.high.y.min(b.high.y), a.high.z.min(b.high.z));
-    Bounds { low, high }
-}
-
 /// A mesh, by the primitives that are its envelopes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Envelopes {
@@ -62,7 +56,7 @@ impl Start<'_> {
         if !bounds[0].touches(bounds[1]) {
             return None;
         }
-        let zone = common(bounds).grown(4.0 * self.tolerance);
+        let zone = bounds[0].common(bounds[1]).grown(4.0 * self.tolerance);
         let near = |csg: &Csg| with_leaves(csg, |i| self.boxes[i as usize].touches(&zone));
         let (a, b) = (near(&without_meshes(parts[0].csg, meshes)), near(parts[1].csg));
         let (primitives, plane) = (self.primitives, &self.plane_from_machine);
@@ -85,7 +79,7 @@ impl Start<'_> {
     /// Looks along lines through the common box in its three directions; every piece of a line between walls is
     /// judged at its middle. Overlaps narrower than the spacing of the lines can be missed.
     fn scan(&self, csgs: [&Csg; 2], bounds: [&Bounds; 2]) -> Option<Clash> {
-        let zone = common(bounds);
+        let zone = bounds[0].common(bounds[1]);
         let Bounds { low, high } = zone;
         let regions = csgs
             .map(|csg| Region::new(self.primitives, csg, self.boxes, &zone, Carrier::Space, self.tolerance));
