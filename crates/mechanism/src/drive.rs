@@ -32,6 +32,14 @@ pub struct Driven {
     pub a: f64,
 }
 
+/// A stretch of a prescribed motion: `x = c₀ + τ (c₁ + τ (c₂ + τ c₃))` with `τ = t − from`, valid up to `until`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivePiece {
+    pub from: f64,
+    pub until: f64,
+    pub coefficients: [f64; 4],
+}
+
 impl Drive {
     /// The motion at time `t`; the acceleration just after it where it jumps.
     pub fn at(&self, t: f64) -> Driven {
@@ -54,6 +62,27 @@ impl Drive {
         match self {
             Drive::Speed { speed, .. } => (speed.abs(), 0.0),
             Drive::Table(table) => table.bounds(from, to),
+        }
+    }
+
+    /// The piece of the motion that holds at time `t` and just after.
+    pub fn piece(&self, t: f64) -> DrivePiece {
+        match self {
+            Drive::Speed { start, speed } => {
+                DrivePiece { from: 0.0, until: f64::INFINITY, coefficients: [*start, *speed, 0.0, 0.0] }
+            }
+            Drive::Table(table) => match table.piece(t) {
+                Some(i) => {
+                    let ([d0, c2, c3], _) = table.cubic(i);
+                    let coefficients = [table.positions[i], d0, c2, c3];
+                    DrivePiece { from: table.times[i], until: table.times[i + 1], coefficients }
+                }
+                None => DrivePiece {
+                    from: t,
+                    until: self.next_knot(t).unwrap_or(f64::INFINITY),
+                    coefficients: [table.at(t).q, 0.0, 0.0, 0.0],
+                },
+            },
         }
     }
 
@@ -228,6 +257,9 @@ mod tests {
             let slope = (drive.at(t + h).q - drive.at(t - h).q) / (2.0 * h);
             let Driven { v, a, .. } = drive.at(t);
             assert!((slope - v).abs() < 1e-4 * (1.0 + a.abs()), "{t}: {slope} {v}");
+            let piece = drive.piece(t);
+            let ([c0, c1, c2, c3], tau) = (piece.coefficients, t - piece.from);
+            assert!((c0 + tau * (c1 + tau * (c2 + tau * c3)) - drive.at(t).q).abs() < 1e-13 && piece.until > t);
             let (speed, acceleration) = drive.bounds(t, t + 0.3);
             for j in 0..=30 {
                 let later = drive.at(t + 0.01 * f64::from(j));

@@ -191,8 +191,30 @@ impl GapState {
         self.carried - self.normal * (1.0 / self.curvature)
     }
 
-    /// `G = ∂g/∂q`.
+    /// The state of a stop, which has no place and no features to run off: its gap alone.
+    pub fn of_stop(gap: f64) -> Self {
+        Self {
+            gap,
+            normal: Vec2::default(),
+            carried: Vec2::default(),
+            point: Vec2::default(),
+            edge_margin: f64::INFINITY,
+            near_end: false,
+            cone_margin: f64::INFINITY,
+            curvature: 0.0,
+            edge_first: false,
+        }
+    }
+
+    /// `G = ∂g/∂q`. Joints that carry both bodies have no part in it, exactly.
     pub fn row(&self, a: &Placed, b: &Placed) -> Row {
+        match a.shared(b) {
+            0 => self.row_between(a, b),
+            k => self.row_between(&a.carried_by(k), &b.carried_by(k)),
+        }
+    }
+
+    fn row_between(&self, a: &Placed, b: &Placed) -> Row {
         let mut row = Row::default();
         a.add_to_row(&mut row, self.normal, self.carried, 1.0);
         b.add_to_row(&mut row, self.normal, self.partner(), -1.0);
@@ -201,11 +223,25 @@ impl GapState {
 
     /// ġ at velocities `v`.
     pub fn rate(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
+        match a.shared(b) {
+            0 => self.rate_between(a, b, v),
+            k => self.rate_between(&a.carried_by(k), &b.carried_by(k), v),
+        }
+    }
+
+    fn rate_between(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
         self.normal.dot(a.velocity(self.carried, v) - b.velocity(self.partner(), v))
     }
 
     /// γ = q̇ᵀ (∂²g/∂q²) q̇: the part of g̈ that joint accelerations do not cause.
     pub fn bias(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
+        match a.shared(b) {
+            0 => self.bias_between(a, b, v),
+            k => self.bias_between(&a.carried_by(k), &b.carried_by(k), v),
+        }
+    }
+
+    fn bias_between(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
         let (ma, mb) = (a.motion(self.carried, v), b.motion(self.partner(), v));
         let (velocity, bias) = (ma.velocity - mb.velocity, ma.bias - mb.bias);
         if self.curvature != 0.0 {

@@ -31,7 +31,7 @@ mod drive;
 mod equations;
 mod forces;
 
-pub use drive::{Drive, Driven, Table};
+pub use drive::{Drive, DrivePiece, Driven, Table};
 pub use equations::{Coupled, Equations, EquationsJacobian};
 pub use forces::{ContactLaw, Forces, Mass, Stop};
 

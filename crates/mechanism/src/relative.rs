@@ -32,6 +32,13 @@ pub struct Relative {
 impl Relative {
     /// Of bodies `a` and `b` at velocities `v` and accelerations `dv` of the coordinates.
     pub fn new(a: &Placed, b: &Placed, v: &[f64], dv: &[f64]) -> Self {
+        match a.shared(b) {
+            0 => Self::between(a, b, v, dv),
+            k => Self::between(&a.carried_by(k), &b.carried_by(k), v, dv),
+        }
+    }
+
+    fn between(a: &Placed, b: &Placed, v: &[f64], dv: &[f64]) -> Self {
         let (a_field, b_field) = (a.field(v, dv), b.field(v, dv));
         let shift = b.pose.shift;
         let (turning, turning_rate) =

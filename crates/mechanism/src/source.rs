@@ -16,6 +16,21 @@ pub struct ContactId {
     pub second: u32,
 }
 
+/// In place of the interaction of a contact: a stop of a joint, which `first` tells by its index.
+const STOP: u32 = u32::MAX;
+
+impl ContactId {
+    /// The identity of a stop, an index into [`crate::Forces::stops`].
+    pub fn of_stop(index: usize) -> Self {
+        Self { interaction: STOP, first: index as u32, second: 0 }
+    }
+
+    /// The index of the stop that this is; None for a contact of two bodies.
+    pub fn stop(self) -> Option<usize> {
+        (self.interaction == STOP).then_some(self.first as usize)
+    }
+}
+
 /// A contact that may come within reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
