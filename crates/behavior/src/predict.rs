@@ -29,6 +29,8 @@ pub enum NoPattern {
     TooManyMinima,
     TooLong,
     StepLimit,
+    /// A drive runs against parts that cannot give way.
+    Jammed,
 }
 
 /// What the machine will do.
@@ -150,7 +152,7 @@ impl<'o> Follower<'o> {
         let track = run.track.take()?;
         self.ranges.iter_mut().for_each(|r| r.merge(&track.ranges));
         let outcome = self.take_minima(run).or_else(|| self.take_turns(run, &track));
-        let energy = mainspring_dynamics::kinetic(self.system, &run.v);
+        let energy = mainspring_dynamics::kinetic(self.system, &run.q, &run.v);
         self.least_energy = self.least_energy.min(energy);
         run.track = Some(Track { ranges: Ranges::empty(self.names.len()), ..track });
         // Tested before any fallback: energy that never changes gives nothing to go by.
@@ -256,6 +258,7 @@ impl<'o> Follower<'o> {
             Status::Complete if self.is_constant(run) => Outcome::NoPattern(NoPattern::ConstantKineticEnergy),
             Status::Complete => Outcome::NoPattern(NoPattern::TooLong),
             Status::StepLimit => Outcome::NoPattern(NoPattern::StepLimit),
+            Status::Jammed => Outcome::NoPattern(NoPattern::Jammed),
             Status::Stopped => Outcome::Stopped,
         }
     }

@@ -29,7 +29,7 @@ impl Chatter {
         let mut ended = None;
         for blow in blows {
             let (a, b) = world.place(&blow.candidate, q);
-            let rate = world.touch(&blow.candidate, (&a, &b)).rate(v);
+            let rate = world.touch_at(&blow.candidate, q, (&a, &b)).rate(v);
             if self.closes(blow.candidate.id, t, rate, world.system.size) {
                 // Bodies of unlike inertia throw each other faster than they meet.
                 ended = Some(f64::max(ended.unwrap_or(0.0), 100.0 * rate.abs()));

@@ -1,20 +1,29 @@
-//! Coordinates that move together: their equations with closed contacts as constraints, integrated step by step.
+//! Coordinates that move together, by closed contacts, by masses or by drives: their equations with the contacts as
+//! constraints, integrated step by step.
 //!
 //! `M q̈ = f(q, q̇) + Gᵀ λ` with `G q̈ + γ = 0`, so `(G M⁻¹ Gᵀ) λ = −(G M⁻¹ f + γ)`. No coordinate is eliminated, so
 //! dead points need no care; after each step positions and velocities are projected back onto g = 0, G q̇ = 0.
+//! Coordinates held by dry friction take part with q̈ = 0 and what holds them, `M q̈ − f − Gᵀ λ`, is watched; driven
+//! ones have their prescribed acceleration.
 
 use crate::flight::Bounds;
+use crate::inertia::Inertia;
 use crate::linear::{Small, factorize, solve_factorized};
 use crate::path::Path;
 use crate::runge_kutta::{Equations, Polynomial, Step};
-use crate::settle::{add_forces, inverse_inertia};
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, Placed, Row};
+use std::sync::Arc;
 
 /// A moving group of coordinates with the contacts it rests on (independent rows).
 #[derive(Clone, Debug, Default)]
 pub struct Component {
+    /// Those that move freely.
     pub coordinates: Vec<usize>,
+    /// Those that dry friction holds.
+    pub stuck: Vec<usize>,
+    /// Indices into `System::coupled`.
+    blocks: Vec<usize>,
     pub contacts: Vec<Candidate>,
     /// Bodies its contacts involve, and for each contact their places in that list.
     bodies: Vec<usize>,
@@ -39,7 +48,14 @@ pub struct Tolerance<'a> {
 }
 
 impl Component {
-    pub fn new(world: &World, coordinates: Vec<usize>, contacts: Vec<Candidate>) -> Self {
+    /// Of the coordinates of a group, driven ones left out, with its contacts.
+    pub fn new(world: &World, group: Vec<usize>, contacts: Vec<Candidate>) -> Self {
+        let (stuck, coordinates): (Vec<usize>, Vec<usize>) = group.into_iter().partition(|&i| world.stuck[i]);
+        let holds = |k: &usize| {
+            let members = &world.system.coupled[*k].coordinates;
+            members.iter().any(|i| coordinates.contains(i) || stuck.contains(i))
+        };
+        let blocks = (0..world.system.coupled.len()).filter(holds).collect();
         let mut bodies = Vec::new();
         let mut place = |body: usize| match bodies.iter().position(|&b| b == body) {
             Some(i) => i,
@@ -55,7 +71,7 @@ impl Component {
                 (place(a), place(b))
             })
             .collect();
-        Self { coordinates, contacts, bodies, sides, step: Step::default() }
+        Self { coordinates, stuck, blocks, contacts, bodies, sides, step: Step::default() }
     }
 
     /// Evaluates each contact at `q` in turn.
@@ -63,37 +79,77 @@ impl Component {
         let system = world.system;
         let placed: Small<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
         for (contact, &(a, b)) in self.contacts.iter().zip(&self.sides) {
-            let touch = world.touch(contact, (&placed[a], &placed[b]));
+            let touch = world.touch_at(contact, q, (&placed[a], &placed[b]));
             each(&touch);
         }
     }
 
-    /// Forces of the contacts at `(q, v)`, and the accelerations of all coordinates they touch; `each` is told every
-    /// contact. None if the contacts are not independent here.
+    /// Forces of the contacts at time `t` and state `(q, v)`, and the accelerations of all coordinates they touch;
+    /// `each` is told every contact. None if the contacts are not independent here.
     pub fn forces(
         &self,
         world: &mut World,
+        t: f64,
         (q, v): (&[f64], &[f64]),
         acceleration: &mut [f64],
         mut each: impl FnMut(&Touch),
     ) -> Option<Small<f64>> {
-        let system = world.system;
-        for &i in &self.coordinates {
-            acceleration[i] = system.coordinates[i].free_acceleration(q[i], v[i]);
-        }
+        let (system, freedom) = (world.system, world.free.clone());
+        let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
+        self.accelerate(world, &inertia, t, (q, v), acceleration);
         let (mut rows, mut lambda) = (Small::<Row>::new(), Small::<f64>::new());
         self.each_touch(world, q, |touch| {
             rows.push(touch.row());
             lambda.push(-(rows[rows.len() - 1].dot(acceleration) + touch.bias(v)));
             each(touch);
         });
-        let mut matrix = inverse_inertia(system, &rows);
+        let mut matrix = inertia.inverse(&rows);
         if !factorize(&mut matrix, rows.len()) {
             return None;
         }
         solve_factorized(&matrix, &mut lambda);
-        add_forces(system, &rows, &lambda, acceleration);
+        inertia.add_forces(&rows, &lambda, acceleration);
         Some(lambda)
+    }
+
+    /// Accelerations without contacts.
+    fn accelerate(
+        &self,
+        world: &World,
+        inertia: &Inertia,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+        acceleration: &mut [f64],
+    ) {
+        world.prescribe(t, acceleration);
+        for &i in self.coordinates.iter().filter(|&&i| world.free.is_alone(i)) {
+            acceleration[i] = world.acceleration_alone(i, q[i], v[i]);
+        }
+        inertia.accelerate(|i| world.dry_force(i), acceleration);
+    }
+
+    /// What holds coordinate `i` of the component in its given motion, `(M q̈ − f − Gᵀ λ)_i`, for accelerations and
+    /// forces λ that belong to the state.
+    pub fn holding(
+        &self,
+        world: &mut World,
+        i: usize,
+        (q, v): (&[f64], &[f64]),
+        acceleration: &[f64],
+        lambda: &[f64],
+    ) -> f64 {
+        let (system, freedom) = (world.system, world.free.clone());
+        let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
+        inertia.missing(i, (q, v), acceleration) - self.pressed(world, i, q, lambda)
+    }
+
+    /// `(Gᵀ λ)_i`.
+    pub fn pressed(&self, world: &mut World, i: usize, q: &[f64], lambda: &[f64]) -> f64 {
+        let (mut pressed, mut forces) = (0.0, lambda.iter());
+        self.each_touch(world, q, |touch| {
+            pressed += touch.row().at(i) * forces.next().copied().unwrap_or(0.0)
+        });
+        pressed
     }
 
     /// Takes one step of at most `longest` from (t, q, v), trying `h` first and halving until the error fits.
@@ -157,7 +213,10 @@ impl Component {
 
     /// Moves `q` onto g = 0 and `v` onto G q̇ = 0 along M⁻¹ Gᵀ: the nearest state in the metric of inertia.
     pub fn project(&self, world: &mut World, q: &mut [f64], v: &mut [f64]) {
-        let system = world.system;
+        let (system, freedom) = (world.system, Arc::clone(&world.free));
+        if self.contacts.is_empty() {
+            return;
+        }
         for _ in 0..3 {
             let (mut rows, mut gaps, mut rates) =
                 (Small::<Row>::new(), Small::<f64>::new(), Small::<f64>::new());
@@ -166,17 +225,18 @@ impl Component {
                 gaps.push(-touch.state.gap);
                 rates.push(-touch.rate(v));
             });
-            let mut matrix = inverse_inertia(system, &rows);
+            let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
+            let mut matrix = inertia.inverse(&rows);
             if !factorize(&mut matrix, rows.len()) {
                 return;
             }
             solve_factorized(&matrix, &mut rates);
-            add_forces(system, &rows, &rates, v);
+            inertia.add_forces(&rows, &rates, v);
             if gaps.iter().all(|g| g.abs() <= 0.1 * crate::search::CLOSED * system.size) {
                 return;
             }
             solve_factorized(&matrix, &mut gaps);
-            add_forces(system, &rows, &gaps, q);
+            inertia.add_forces(&rows, &gaps, q);
         }
     }
 }
@@ -204,13 +264,17 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
 }
 
 impl Equations for ComponentEquations<'_, '_> {
-    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let n = self.component.coordinates.len();
+        for (i, drive) in &self.world.drives {
+            let driven = drive.at(t);
+            (self.q[*i], self.v[*i]) = (driven.q, driven.v);
+        }
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
         let state = (self.q.as_slice(), self.v.as_slice());
-        let forces = self.component.forces(self.world, state, &mut self.acceleration, |_| {});
+        let forces = self.component.forces(self.world, t, state, &mut self.acceleration, |_| {});
         self.singular |= forces.is_none();
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];

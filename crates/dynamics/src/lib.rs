@@ -3,14 +3,17 @@
 //! Gelsey 1995, Appendix A (the *global* model), with contacts as projections onto `G q̇ ≥ 0` in place of the
 //! elimination of coordinates.
 
+mod chained;
 mod chatter;
 mod clearance;
 mod complementarity;
 mod compliant;
 mod component;
+mod descent;
 mod energy;
 mod events;
 mod flight;
+mod inertia;
 mod linear;
 mod march;
 mod minima;
@@ -26,6 +29,7 @@ mod sight;
 mod simulation;
 mod tableau;
 mod watch;
+mod work;
 mod world;
 
 pub use compliant::Compliant;

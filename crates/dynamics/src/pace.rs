@@ -3,6 +3,7 @@
 //! A point of a body whose joints move it at most with speed S, turn it with ω, and so on, obeys
 //! ```text
 //! |p̈| ≤ A = Σ L α + ω S        |p⃛| ≤ J = Σ L j + 2 α S + ω A        (one joint with lever arm L)
+//! |p̈| ≤ A = Σ L α + 2 ω S      |p⃛| ≤ J = Σ L j + 3 α S + 3 ω Σ L α + 5 ω² S        (a chain)
 //! ```
 //! With n the normal of an edge, f a point of it and c the centre of a round feature, `g = n·(c − f) − r` gives
 //! `|g⃛| ≤ |n⃛| |c − f| + 3 |n̈| |ċ − ḟ| + 3 |ṅ| |c̈ − f̈| + |c⃛ − f⃛|`; for two centres d apart
@@ -15,7 +16,7 @@ use mainspring_mechanism::GapKind;
 
 /// Bounds of the motion of one body's features.
 #[derive(Clone, Copy, Debug, Default)]
-struct Side {
+pub struct Side {
     speed: f64,
     acceleration: f64,
     jerk: f64,
@@ -26,14 +27,25 @@ struct Side {
 }
 
 impl Side {
-    fn add(&mut self, arm: &Arm, bounds: Bounds, jerk: f64) {
-        self.speed += arm.length * bounds.speed;
-        self.acceleration += arm.length * bounds.acceleration;
-        self.jerk += arm.length * jerk;
-        self.turning += arm.turn * bounds.speed;
-        self.turning_rate += arm.turn * bounds.acceleration;
-        self.turning_jerk += arm.turn * jerk;
+    /// A joint that moves points by `length` and turns by `turn` per unit of its coordinate.
+    pub fn add_joint(&mut self, (length, turn): (f64, f64), bounds: Bounds, jerk: f64) {
+        self.speed += length * bounds.speed;
+        self.acceleration += length * bounds.acceleration;
+        self.jerk += length * jerk;
+        self.turning += turn * bounds.speed;
+        self.turning_rate += turn * bounds.acceleration;
+        self.turning_jerk += turn * jerk;
         self.joints += 1;
+    }
+
+    /// A² + S J: how fast the power of a unit mass can change.
+    pub fn point_bend(&self) -> f64 {
+        self.point_acceleration().powi(2) + self.speed * self.point_jerk()
+    }
+
+    /// The same of a unit moment of inertia.
+    pub fn turning_bend(&self) -> f64 {
+        self.turning_rate * self.turning_rate + self.turning * self.turning_jerk
     }
 
     fn shared(&self, share: f64) -> Self {
@@ -45,9 +57,10 @@ impl Side {
         }
     }
 
-    /// A: of a point.
+    /// A: of a point. A slide on a turning part has the acceleration of Coriolis, 2 ω ṡ.
     fn point_acceleration(&self) -> f64 {
-        self.acceleration + self.turning * self.speed
+        let coriolis = if self.joints <= 1 { 1.0 } else { 2.0 };
+        self.acceleration + coriolis * self.turning * self.speed
     }
 
     /// J: of a point. Along a chain the arms of later joints turn with earlier ones, which adds terms.
@@ -75,8 +88,17 @@ impl Pace {
         for arm in arms {
             let i = arm.coordinate;
             if !paths[i].is_rest() {
-                let bounds = paths[i].bounds(State { q: q[i], v: v[i] }, dt);
-                pace.sides[usize::from(arm.second)].add(arm, bounds, paths[i].jerk(bounds));
+                let bounds_of = |i: usize| paths[i].bounds(State { q: q[i], v: v[i] }, dt);
+                let bounds = bounds_of(i);
+                let length = arm.reach(|k| {
+                    let j = arms[k].coordinate;
+                    q[j].abs() + if paths[j].is_rest() { 0.0 } else { bounds_of(j).speed * dt }
+                });
+                pace.sides[usize::from(arm.second)].add_joint(
+                    (length, arm.turn),
+                    bounds,
+                    paths[i].jerk(bounds),
+                );
             }
         }
         pace

@@ -2,13 +2,18 @@
 //!
 //! With all closed contacts in G, an impact gives the velocities q̇⁺ that minimise
 //! `(q̇⁺ − q̇⁻)ᵀ M (q̇⁺ − q̇⁻)` subject to `G q̇⁺ ≥ 0` (perfectly inelastic); afterwards Gauss's principle gives the
-//! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem.
+//! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem. Driven coordinates
+//! keep their prescribed motion. Dry friction has no share in an impact; what rests it holds with a force within ± T that
+//! joins the contact forces in Gauss's problem.
 
-use crate::complementarity::{Solution, solve};
+use crate::complementarity::{Solution, solve, solve_bounded};
+use crate::energy::kinetic;
+use crate::inertia::{Freedom, Inertia};
 use crate::linear::{Cholesky, Small};
 use crate::place::representatives;
 use crate::search::{OVERLAP, TOGETHER};
-use crate::world::{Touch, World};
+use crate::simulation::Mode;
+use crate::world::{Touch, World, stop_candidate};
 use mainspring_mechanism::{Candidate, ContactId, ContactSource, Placed, Relative, Row, System};
 
 /// Rates below this fraction of the speeds at hand count as zero.
@@ -43,11 +48,17 @@ pub struct Settled {
     pub impulses: Vec<Impulse>,
     /// Kinetic energy lost at impacts: ½ Δq̇ᵀ M Δq̇ summed over rounds.
     pub loss: f64,
+    /// Work that drives do at impacts: their impulse times their speed.
+    pub work: f64,
     pub closed: Vec<Closed>,
     /// Contacts that touch to rounding and are not closed, with their gaps.
     pub opening: Vec<(ContactId, f64)>,
-    /// Accelerations just after.
+    /// Accelerations just after, and sizes of what meets in them, by coordinate.
     pub acceleration: Vec<f64>,
+    pub weights: Small<f64, 8>,
+    /// Coordinates that dry friction holds, and the direction in which it lets others slide (0 without).
+    pub stuck: Vec<bool>,
+    pub sliding: Vec<f64>,
     /// False if the conditions could not be met to the tolerance.
     pub solved: bool,
 }
@@ -58,6 +69,7 @@ impl Settled {
         let later = std::mem::replace(&mut self.impulses, earlier.impulses);
         later.into_iter().for_each(|i| add_impulse(&mut self.impulses, i));
         self.loss += earlier.loss;
+        self.work += earlier.work;
         self.solved &= earlier.solved;
     }
 }
@@ -71,6 +83,7 @@ fn add_impulse(impulses: &mut Vec<Impulse>, new: Impulse) {
 
 /// The state that an instant starts from. `speeds` are the greatest speeds so far, for tolerances.
 pub struct Instant<'a> {
+    pub t: f64,
     pub q: &'a [f64],
     pub speeds: &'a [f64],
     /// Contacts closed before.
@@ -81,6 +94,8 @@ pub struct Instant<'a> {
     /// Set when a contact has come to chatter by less than can be told apart, or when events at one instant do not
     /// end: rates up to this end here.
     pub chattering: Option<f64>,
+    /// A coordinate that dry friction no longer holds, and the direction in which it goes.
+    pub giving: Option<(usize, f64)>,
 }
 
 /// Resolves an instant; `v` is changed by impacts.
@@ -88,19 +103,21 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     let mut out = Settled { solved: true, ..Settled::default() };
     let placed = world.place_all(instant.q);
     let near = near_touches(world, instant.q, &placed);
+    let (system, freedom) = (world.system, world.moved.clone());
+    let inertia = Inertia::whole(system, &freedom, (instant.q, v));
     for _ in 0..MOST_ROUNDS {
         let touches = choose(world, instant, &near, v);
-        if !impact(world.system, instant, &touches, v, &mut out) {
+        if !impact((world, &inertia), instant, &touches, v, &mut out) {
             break;
         }
     }
     if let Some(rate) = instant.chattering {
         // At rest all that touches counts: also a corner that was on its way off a face.
         let touches = choose(world, instant, &near, &vec![0.0; v.len()]);
-        quieten(world.system, instant, rate, &touches, v);
+        quieten((&inertia, &freedom), instant, rate, &touches, v);
     }
     let touches = choose(world, instant, &near, v);
-    hold(world.system, instant, &touches, v, &mut out);
+    hold(world, instant, &touches, v, &mut out);
     // What touches along the same normal as a contact that lets go, and carries nothing, lets go with it.
     if let Some(left) = near.iter().find(|t| Some(t.candidate.id) == instant.leaving) {
         let lets_go = |c: &Closed| {
@@ -114,20 +131,24 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     out
 }
 
-/// Forces at a state of the contacts known to be closed there (Gelsey 1995, Sec. 2.2.2), in their order.
+/// Forces of the contacts known to be closed in a mode, at time `t` and state `(q, v)` within it (Gelsey 1995,
+/// Sec. 2.2.2), in their order.
 pub fn forces_at(
     system: &System,
     source: &dyn ContactSource,
-    closed: &[Closed],
-    q: &[f64],
-    v: &[f64],
+    mode: &Mode,
+    t: f64,
+    (q, v): (&[f64], &[f64]),
 ) -> Vec<Closed> {
     let mut world = World::new(system, source);
+    world.set_dry(&mode.stuck, &mode.sliding);
     let placed = world.place_all(q);
-    let touches: Vec<Touch> = closed.iter().map(|c| world.touch_among(&c.candidate, &placed)).collect();
-    let problem = Balance::new(system, touches.iter().collect(), q, v);
+    let touches: Vec<Touch> =
+        mode.closed.iter().map(|c| world.touch_among(&c.candidate, q, &placed)).collect();
+    let stuck: Vec<usize> = (0..q.len()).filter(|&i| mode.stuck[i]).collect();
+    let problem = Balance::new(&world, touches.iter().collect(), &stuck, t, (q, v));
     let forces = problem.solution.lambda;
-    closed.iter().zip(forces).map(|(c, force)| Closed { force, active: force > 0.0, ..*c }).collect()
+    mode.closed.iter().zip(forces).map(|(c, force)| Closed { force, active: force > 0.0, ..*c }).collect()
 }
 
 /// Every contact closed to `TOGETHER` at `q`, wherever along its features.
@@ -146,8 +167,14 @@ fn near_touches<'p>(world: &mut World, q: &[f64], placed: &'p [Placed<'p>]) -> V
             }
             let gap = world.approach(&candidate, &relative).gap;
             if gap <= within && gap >= -deep {
-                found.push(world.touch_among(&candidate, placed));
+                found.push(world.touch_among(&candidate, q, placed));
             }
+        }
+    }
+    for k in world.stops() {
+        let touch = world.touch_among(&stop_candidate(k), q, placed);
+        if touch.state.gap <= within {
+            found.push(touch);
         }
     }
     found
@@ -172,25 +199,35 @@ fn reach_of(row: &Row, speeds: &[f64]) -> f64 {
 }
 
 /// One round of impact over the chosen contacts; false when nothing was closing.
-fn impact(system: &System, instant: &Instant, touches: &[Touch], v: &mut [f64], out: &mut Settled) -> bool {
+fn impact(
+    (world, inertia): (&World, &Inertia),
+    instant: &Instant,
+    touches: &[Touch],
+    v: &mut [f64],
+    out: &mut Settled,
+) -> bool {
     let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
     let rates: Vec<f64> = touches.iter().map(|t| t.rate(v)).collect();
     let tolerance: Vec<f64> = rows.iter().map(|r| rate_tolerance(r, instant.speeds)).collect();
     if rates.iter().zip(&tolerance).all(|(rate, tol)| *rate >= -tol) {
         return false;
     }
-    let solution = solve(&inverse_inertia(system, &rows), &rates, &tolerance);
+    let solution = solve(&inertia.inverse(&rows), &rates, &tolerance);
     out.solved &= solution.solved;
     let mut change = vec![0.0; v.len()];
-    add_forces(system, &rows, &solution.lambda, &mut change);
-    for (i, c) in system.coordinates.iter().enumerate() {
-        out.loss += 0.5 * c.inertia * change[i] * change[i];
+    inertia.add_forces(&rows, &solution.lambda, &mut change);
+    out.loss += kinetic(world.system, instant.q, &change);
+    for &(i, _) in &world.drives {
+        let pressed: f64 = rows.iter().zip(&solution.lambda).map(|(row, l)| row.at(i) * l).sum();
+        out.work += v[i] * (inertia.momentum(i, &change) - pressed);
+    }
+    for i in (0..v.len()).filter(|&i| !world.moved.is_held(i)) {
         v[i] += change[i];
         if v[i].abs() <= 1e-13 * instant.speeds[i] {
             v[i] = 0.0;
         }
     }
-    stop_locked(&rows, &solution.active, v);
+    stop_locked(&world.moved, &rows, &solution.active, v);
     for (touch, &impulse) in touches.iter().zip(&solution.lambda).filter(|(_, l)| **l > 0.0) {
         add_impulse(&mut out.impulses, Impulse { candidate: touch.candidate, impulse });
     }
@@ -199,34 +236,59 @@ fn impact(system: &System, instant: &Instant, touches: &[Touch], v: &mut [f64], 
 
 /// Ends a chatter: velocities that keep every touching contact with a small rate closed, nearest in the metric of
 /// inertia. The energy this takes is below what can be told apart.
-fn quieten(system: &System, instant: &Instant, rate: f64, touches: &[Touch], v: &mut [f64]) {
+fn quieten(
+    (inertia, freedom): (&Inertia, &Freedom),
+    instant: &Instant,
+    rate: f64,
+    touches: &[Touch],
+    v: &mut [f64],
+) {
     let bound = |t: &Touch| rate.min(CHATTERING * reach_of(&t.row(), instant.speeds));
     let slow = touches.iter().filter(|t| t.rate(v).abs() <= bound(t));
     let mut rows: Vec<Row> = Vec::new();
     for touch in slow {
         rows.push(touch.row());
-        if Cholesky::new(inverse_inertia(system, &rows), rows.len()).is_none() {
+        if Cholesky::new(inertia.inverse(&rows), rows.len()).is_none() {
             rows.pop();
         }
     }
-    let Some(factor) = Cholesky::new(inverse_inertia(system, &rows), rows.len()) else { return };
+    let Some(factor) = Cholesky::new(inertia.inverse(&rows), rows.len()) else { return };
     let rates: Vec<f64> = rows.iter().map(|r| -r.dot(v)).collect();
-    add_forces(system, &rows, &factor.solve(&rates), v);
+    inertia.add_forces(&rows, &factor.solve(&rates), v);
     let all: Vec<usize> = (0..rows.len()).collect();
-    stop_locked(&rows, &all, v);
+    stop_locked(freedom, &rows, &all, v);
 }
 
-/// As many independent active contacts as coordinates they touch: nothing there can move.
-fn stop_locked(rows: &[Row], active: &[usize], v: &mut [f64]) {
-    let groups = groups(rows, active);
-    for group in groups.iter().filter(|g| g.contacts.len() >= g.coordinates.len()) {
-        for &i in &group.coordinates {
-            v[i] = 0.0;
+/// As many independent active contacts as coordinates they touch: nothing there can move, unless a drive moves it.
+fn stop_locked(freedom: &Freedom, rows: &[Row], active: &[usize], v: &mut [f64]) {
+    let ties: Vec<Tie> = active.iter().map(|&k| Tie::of_row(freedom, &rows[k], k)).collect();
+    for group in groups(ties) {
+        let contacts = group.contacts.iter();
+        let driven = |k: &usize| rows[*k].entries().any(|(i, g)| freedom.is_held(i) && g * v[i] != 0.0);
+        if group.contacts.len() >= group.coordinates.len() && !contacts.clone().any(driven) {
+            for &i in &group.coordinates {
+                v[i] = 0.0;
+            }
         }
     }
 }
 
-/// Coordinates tied together by contacts.
+/// Coordinates that something ties together: a contact (an index into the rows) or masses.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tie {
+    pub coordinates: Vec<usize>,
+    pub contact: Option<usize>,
+}
+
+impl Tie {
+    /// The coordinates of a contact's row, those left out that are held.
+    pub fn of_row(freedom: &Freedom, row: &Row, k: usize) -> Self {
+        let coordinates = row.entries().map(|e| e.0).filter(|&i| !freedom.is_held(i)).collect();
+        Self { coordinates, contact: Some(k) }
+    }
+}
+
+/// Coordinates tied together.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
     /// In increasing order.
@@ -235,12 +297,11 @@ pub struct Group {
     pub contacts: Vec<usize>,
 }
 
-/// Sorts contacts into groups that share coordinates, in a fixed order.
-pub fn groups(rows: &[Row], active: &[usize]) -> Vec<Group> {
+/// Sorts ties into groups that share coordinates, in a fixed order. Ties without coordinates are left out.
+pub fn groups(ties: Vec<Tie>) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for &k in active {
-        let mut merged =
-            Group { coordinates: rows[k].entries().map(|(i, _)| i).collect(), contacts: vec![k] };
+    for tie in ties.into_iter().filter(|t| !t.coordinates.is_empty()) {
+        let mut merged = Group { coordinates: tie.coordinates, contacts: tie.contact.into_iter().collect() };
         let (joined, others): (Vec<Group>, Vec<Group>) =
             groups.into_iter().partition(|g| g.coordinates.iter().any(|i| merged.coordinates.contains(i)));
         for g in joined {
@@ -257,13 +318,20 @@ pub fn groups(rows: &[Row], active: &[usize]) -> Vec<Group> {
     groups
 }
 
-/// Which touching contacts stay closed, with what forces (Gauss's principle).
-fn hold(system: &System, instant: &Instant, touches: &[Touch], v: &[f64], out: &mut Settled) {
+/// Which touching contacts stay closed, with what forces, and what dry friction holds (Gauss's principle).
+fn hold(world: &mut World, instant: &Instant, touches: &[Touch], v: &[f64], out: &mut Settled) {
     let still =
         touches.iter().filter(|t| t.rate(v).abs() <= rate_tolerance(&t.row(), instant.speeds)).collect();
-    let Balance { touches, tolerance, solution, acceleration } = Balance::new(system, still, instant.q, v);
+    let sliding = slides(world, instant, v);
+    world.set_dry(&vec![false; v.len()], &sliding);
+    let rests =
+        |&i: &usize| world.system.forces.coulomb[i] > 0.0 && sliding[i] == 0.0 && !world.moved.is_held(i);
+    let resting: Vec<usize> = (0..v.len()).filter(rests).collect();
+    let problem = Balance::new(world, still, &resting, instant.t, (instant.q, v));
+    (out.stuck, out.sliding) = problem.dry(&resting, sliding);
+    let Balance { touches, tolerance, solution, acceleration, weights, .. } = problem;
     out.solved &= solution.solved;
-    out.acceleration = acceleration;
+    (out.acceleration, out.weights) = (acceleration, weights);
     for (k, touch) in touches.iter().enumerate() {
         let (force, candidate) = (solution.lambda[k], touch.candidate);
         if force > 0.0 || solution.w[k] <= tolerance[k] {
@@ -272,63 +340,84 @@ fn hold(system: &System, instant: &Instant, touches: &[Touch], v: &[f64], out: &
     }
 }
 
-/// Accelerations and contact forces by Gauss's principle over contacts with gap and rate zero.
+/// Directions in which free coordinates with dry friction slide: by their velocities, or as they have just let go.
+fn slides(world: &World, instant: &Instant, v: &[f64]) -> Vec<f64> {
+    let sign = |i: usize| match instant.giving {
+        Some((k, direction)) if k == i && v[i] == 0.0 => direction,
+        _ if world.system.forces.coulomb[i] > 0.0 && v[i] != 0.0 => v[i].signum(),
+        _ => 0.0,
+    };
+    (0..v.len()).map(|i| if world.moved.is_held(i) { 0.0 } else { sign(i) }).collect()
+}
+
+/// Accelerations, contact forces and what dry friction holds, by Gauss's principle over contacts with gap and rate zero
+/// and coordinates at rest.
 struct Balance<'t, 'a> {
     touches: Vec<&'t Touch<'a>>,
-    /// Relative accelerations below these count as zero, by contact.
+    /// Relative accelerations below these count as zero, by row: contacts, then coordinates at rest.
     tolerance: Vec<f64>,
     solution: Solution,
     /// Of every coordinate.
     acceleration: Vec<f64>,
+    weights: Small<f64, 8>,
+    /// Sizes of dry friction of the coordinates at rest.
+    sizes: Vec<f64>,
+    matrix: Small<f64, 16>,
 }
 
 impl<'t, 'a> Balance<'t, 'a> {
-    fn new(system: &System, touches: Vec<&'t Touch<'a>>, q: &[f64], v: &[f64]) -> Self {
-        let rows: Vec<Row> = touches.iter().map(|t| t.row()).collect();
-        let free = system.coordinates.iter().enumerate().map(|(i, c)| c.free_acceleration(q[i], v[i]));
-        let mut acceleration: Vec<f64> = free.collect();
-        let bias: Vec<f64> = touches.iter().map(|t| t.bias(v)).collect();
+    fn new(
+        world: &World,
+        touches: Vec<&'t Touch<'a>>,
+        resting: &[usize],
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+    ) -> Self {
+        let inertia = Inertia::whole(world.system, &world.moved, (q, v));
+        let mut acceleration = vec![0.0; q.len()];
+        world.prescribe(t, &mut acceleration);
+        for i in (0..q.len()).filter(|&i| world.moved.is_alone(i)) {
+            acceleration[i] = world.acceleration_alone(i, q[i], v[i]);
+        }
+        inertia.accelerate(|i| world.dry_force(i), &mut acceleration);
+        let weights = inertia.weights((q, v), &acceleration);
+        let contacts = touches.iter().map(|t| (t.row(), t.bias(v)));
+        let (rows, bias): (Vec<Row>, Vec<f64>) =
+            contacts.chain(resting.iter().map(|&i| (Row::single(i, 1.0), 0.0))).unzip();
         let b: Vec<f64> = rows.iter().zip(&bias).map(|(row, bias)| row.dot(&acceleration) + bias).collect();
-        let tolerance: Vec<f64> = rows
-            .iter()
-            .zip(&bias)
-            .map(|(row, bias)| BALANCED * (weigh(system, row, q, v) + bias.abs()))
-            .collect();
-        let solution = solve(&inverse_inertia(system, &rows), &b, &tolerance);
-        add_forces(system, &rows, &solution.lambda, &mut acceleration);
-        Self { touches, tolerance, solution, acceleration }
+        let weigh = |row: &Row| row.entries().map(|(i, g)| g.abs() * weights[i]).sum::<f64>();
+        let tolerance: Vec<f64> =
+            rows.iter().zip(&bias).map(|(row, bias)| BALANCED * (weigh(row) + bias.abs())).collect();
+        let sizes: Vec<f64> = resting.iter().map(|&i| world.system.forces.coulomb[i]).collect();
+        let matrix = inertia.inverse(&rows);
+        let solution = solve_bounded(&matrix, &b, &tolerance, &sizes);
+        inertia.add_forces(&rows, &solution.lambda, &mut acceleration);
+        Self { touches, tolerance, solution, acceleration, weights, sizes, matrix }
     }
-}
 
-/// Size of the accelerations that meet at a contact, before they cancel.
-fn weigh(system: &System, row: &Row, q: &[f64], v: &[f64]) -> f64 {
-    row.entries()
-        .map(|(i, g)| {
-            let c = &system.coordinates[i];
-            let force = (c.force - c.stiffness * q[i]).abs() + (c.damping * v[i]).abs();
-            g.abs() * force / c.inertia
-        })
-        .sum()
-}
-
-/// `G M⁻¹ Gᵀ` in row order.
-pub fn inverse_inertia(system: &System, rows: &[Row]) -> Small<f64, 16> {
-    let n = rows.len();
-    let mut a: Small<f64, 16> = smallvec::smallvec![0.0; n * n];
-    for i in 0..n {
-        for j in 0..=i {
-            let product = rows[i].product(&rows[j], |k| system.coordinates[k].inertia);
-            (a[i * n + j], a[j * n + i]) = (product, product);
+    /// Which of the coordinates at rest are stuck; those at the limit of friction slide. One that contacts hold as
+    /// well is stuck only if it needs to be: what holds must stay independent.
+    fn dry(&self, resting: &[usize], mut sliding: Vec<f64>) -> (Vec<bool>, Vec<f64>) {
+        let contacts = self.touches.len();
+        let n = contacts + self.sizes.len();
+        let mut stuck = vec![false; sliding.len()];
+        let mut holding = self.solution.active.clone();
+        for (k, (&i, size)) in resting.iter().zip(&self.sizes).enumerate() {
+            let (row, force) = (contacts + k, self.solution.lambda[contacts + k]);
+            if self.solution.active.contains(&row) {
+                stuck[i] = true;
+            } else if force.abs() >= *size {
+                sliding[i] = -force.signum();
+            } else {
+                holding.push(row);
+                let entries =
+                    holding.iter().flat_map(|&r| holding.iter().map(move |&s| self.matrix[r * n + s]));
+                stuck[i] = Cholesky::new(entries.collect(), holding.len()).is_some();
+                if !stuck[i] {
+                    holding.pop();
+                }
+            }
         }
-    }
-    a
-}
-
-/// Adds `M⁻¹ Gᵀ λ`.
-pub fn add_forces(system: &System, rows: &[Row], lambda: &[f64], change: &mut [f64]) {
-    for (row, l) in rows.iter().zip(lambda) {
-        for (i, g) in row.entries() {
-            change[i] += g * l / system.coordinates[i].inertia;
-        }
+        (stuck, sliding)
     }
 }

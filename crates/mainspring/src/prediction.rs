@@ -167,5 +167,6 @@ fn reason_word(reason: NoPattern) -> &'static str {
         NoPattern::TooManyMinima => "max_minima",
         NoPattern::TooLong => "max_time",
         NoPattern::StepLimit => "step_limit",
+        NoPattern::Jammed => "jammed",
     }
 }

@@ -89,6 +89,9 @@ fn no_pattern(p: &PredictionResult, reason: NoPattern) -> String {
             format!("No pattern found within the bound on kinetic-energy minima ({t} s): raise --max-minima.")
         }
         NoPattern::TooLong => format!("No pattern found within {t} s: raise --max-time."),
+        NoPattern::Jammed => {
+            format!("No pattern: after {t} s a drive runs against parts that cannot give way.")
+        }
         NoPattern::StepLimit => format!("No pattern found: the bound on steps was met at {t} s."),
     }
 }

@@ -136,7 +136,7 @@ impl SimulationResult {
         let modes = &self.run.modes;
         let mode = modes.partition_point(|m| m.from <= t).checked_sub(1).map(|k| &modes[k]);
         let source = self.system.direct_search();
-        let closed = mode.map_or(vec![], |m| forces_at(&self.system, &source, &m.closed, &q, &v));
+        let closed = mode.map_or(vec![], |m| forces_at(&self.system, &source, m, t, (&q, &v)));
         Value::Array(contacts_json(&self.system, &closed, &q))
     }
 
@@ -185,6 +185,7 @@ impl SimulationResult {
         json!({
             "initial": e.initial,
             "final": e.last,
+            "work": e.work,
             "friction": e.friction,
             "impacts": e.impacts,
             "kinetic_max": e.kinetic_max,
@@ -233,6 +234,7 @@ fn status_word(status: Status) -> &'static str {
         Status::Complete => "complete",
         Status::AtRest => "at_rest",
         Status::StepLimit => "step_limit",
+        Status::Jammed => "jammed",
         Status::Stopped => "stopped",
     }
 }
@@ -240,6 +242,9 @@ fn status_word(status: Status) -> &'static str {
 fn advice(status: Status) -> Option<&'static str> {
     match status {
         Status::Complete | Status::AtRest | Status::Stopped => None,
+        Status::Jammed => Some(
+            "a drive runs against parts that cannot give way: change its motion, or what stands in its way",
+        ),
         Status::StepLimit => {
             Some("the bound on steps was met: ask for a shorter time, a looser tolerance, or more steps")
         }

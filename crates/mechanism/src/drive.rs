@@ -259,7 +259,9 @@ mod tests {
             assert!((slope - v).abs() < 1e-4 * (1.0 + a.abs()), "{t}: {slope} {v}");
             let piece = drive.piece(t);
             let ([c0, c1, c2, c3], tau) = (piece.coefficients, t - piece.from);
-            assert!((c0 + tau * (c1 + tau * (c2 + tau * c3)) - drive.at(t).q).abs() < 1e-13 && piece.until > t);
+            assert!(
+                (c0 + tau * (c1 + tau * (c2 + tau * c3)) - drive.at(t).q).abs() < 1e-13 && piece.until > t
+            );
             let (speed, acceleration) = drive.bounds(t, t + 0.3);
             for j in 0..=30 {
                 let later = drive.at(t + 0.01 * f64::from(j));

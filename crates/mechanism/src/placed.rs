@@ -20,6 +20,13 @@ pub struct Row {
 }
 
 impl Row {
+    /// One entry.
+    pub fn single(coordinate: usize, value: f64) -> Self {
+        let mut row = Self::default();
+        row.add(coordinate, value);
+        row
+    }
+
     /// Adds `value` at `coordinate`.
     pub fn add(&mut self, coordinate: usize, value: f64) {
         for k in 0..self.count {
@@ -35,6 +42,11 @@ impl Row {
 
     pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (0..self.count).map(|k| (self.coordinate[k], self.value[k]))
+    }
+
+    /// The entry at a coordinate; 0 if there is none.
+    pub fn at(&self, coordinate: usize) -> f64 {
+        self.entries().find(|e| e.0 == coordinate).map_or(0.0, |e| e.1)
     }
 
     /// Same coordinates with the same entries, to 1e-9 of the largest.

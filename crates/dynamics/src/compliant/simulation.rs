@@ -74,8 +74,8 @@ impl<'a> Compliant<'a> {
             system.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
         let n = q.len();
         let world = World::new(system, source);
-        let scales = position_scales(&world);
-        let initial = kinetic(system, &v) + potential(system, &q);
+        let scales = position_scales(&world, &q);
+        let initial = kinetic(system, &q, &v) + potential(system, &q);
         let mut run = Self {
             world,
             overlaps: Overlaps::new(system),
@@ -107,7 +107,7 @@ impl<'a> Compliant<'a> {
             q,
             v,
         };
-        run.energy.kinetic_max = kinetic(system, &run.v);
+        run.energy.kinetic_max = kinetic(system, &run.q, &run.v);
         run.minima.top = run.energy.kinetic_max;
         run.touch_at_start();
         run.regroup();
@@ -409,7 +409,8 @@ impl<'a> Compliant<'a> {
             }
         }
         let closed = self.closed();
-        self.modes.push(Mode { from: self.t, closed });
+        let n = self.q.len();
+        self.modes.push(Mode { from: self.t, closed, stuck: vec![false; n], sliding: vec![0.0; n] });
     }
 
     /// No contact acts on coordinate `i`: it flies, or stays where nothing moves it.
@@ -456,7 +457,7 @@ impl<'a> Compliant<'a> {
     /// Everything rests, or moves with next to no energy left above its equilibrium.
     fn is_at_rest(&mut self) -> bool {
         let level = AT_REST * self.minima.top;
-        if kinetic(self.world.system, &self.v) > level || self.free_energy(self.t) > level {
+        if kinetic(self.world.system, &self.q, &self.v) > level || self.free_energy(self.t) > level {
             return false;
         }
         if self.group.tips.is_empty() {
@@ -537,7 +538,7 @@ impl<'a> Compliant<'a> {
             self.trajectory.pieces[i].push(piece);
         }
         self.energy.kinetic_max = self.energy.kinetic_max.max(self.minima.top);
-        self.energy.last = kinetic(self.world.system, &self.v) + potential(self.world.system, &self.q);
+        self.energy.last = kinetic(self.world.system, &self.q, &self.v) + potential(self.world.system, &self.q);
         self.closed();
         self.energy.contact_stored = self.group.stored();
         self.stats.gap_evaluations = self.world.evaluations + self.group.evaluations;
