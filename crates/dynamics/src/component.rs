@@ -15,6 +15,9 @@ use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, Placed, Row};
 use std::sync::Arc;
 
+/// Velocities below this fraction of what the greatest speeds make likely are no scale of their own.
+const SLOWEST: f64 = 1e-6;
+
 /// A moving group of coordinates with the contacts it rests on (independent rows).
 #[derive(Clone, Debug, Default)]
 pub struct Component {
@@ -192,10 +195,12 @@ impl Component {
 
     fn scale(&self, acceleration: &[f64], h: f64, tolerance: &Tolerance) -> Small<f64, 16> {
         let positions = self.coordinates.iter().map(|&i| tolerance.relative * tolerance.positions[i]);
-        let speeds =
-            self.coordinates.iter().zip(acceleration).map(|(&i, a)| {
-                tolerance.relative * tolerance.speeds[i].max(a.abs() * h).max(f64::MIN_POSITIVE)
-            });
+        // A coordinate that only begins to move is told by what moves with it.
+        let relative = tolerance.speeds.iter().zip(tolerance.positions).map(|(v, scale)| v / scale);
+        let least = (SLOWEST * relative.fold(0.0, f64::max)).max(f64::MIN_POSITIVE);
+        let speeds = self.coordinates.iter().zip(acceleration).map(|(&i, a)| {
+            tolerance.relative * tolerance.speeds[i].max(a.abs() * h).max(least * tolerance.positions[i])
+        });
         positions.chain(speeds).collect()
     }
 

@@ -135,7 +135,7 @@ impl<'a> March<'a> {
                 break;
             }
             // Behind an edge's line but past its end is free as well.
-            first_open = (gap > 0.0 || self.margin(world, sight) <= 0.0).then_some(t);
+            first_open = (gap > 0.0 || self.margin(world, sight) < -BAND * size).then_some(t);
             dt *= 0.25;
         }
         if let Some(t) = first_open {

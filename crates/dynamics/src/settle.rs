@@ -29,6 +29,8 @@ const MOST_ROUNDS: usize = 40;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closed {
     pub candidate: Candidate,
+    /// Its gap when it was found closed: zero to rounding.
+    pub gap: f64,
     /// Force along the normal; 0 for a contact that stays closed without force.
     pub force: f64,
     /// Whether the motion rests on it.
@@ -335,7 +337,7 @@ fn hold(world: &mut World, instant: &Instant, touches: &[Touch], v: &[f64], out:
     for (k, touch) in touches.iter().enumerate() {
         let (force, candidate) = (solution.lambda[k], touch.candidate);
         if force > 0.0 || solution.w[k] <= tolerance[k] {
-            out.closed.push(Closed { candidate, force, active: force > 0.0 });
+            out.closed.push(Closed { candidate, gap: touch.state.gap, force, active: force > 0.0 });
         }
     }
 }
