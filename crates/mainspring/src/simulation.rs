@@ -2,7 +2,6 @@
 
 use crate::contacts::contacts_json;
 use crate::options::check_simulation;
-use crate::scope::check_rigid;
 use crate::words::{by_part, clean};
 use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
 use mainspring_mechanism::{Mechanism, System};
@@ -60,7 +59,6 @@ pub fn simulate(
 ) -> Result<SimulationResult, Error> {
     check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
-    check_rigid(mechanism, &system)?;
     let source = system.direct_search();
     let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
     let start = Instant::now();
@@ -202,13 +200,17 @@ impl SimulationResult {
         };
         let together: Vec<Vec<String>> =
             e.moving_together.iter().map(|g| g.iter().map(|&i| name(i)).collect()).collect();
-        json!({
+        let mut event = json!({
             "t": e.t,
             "kind": kind,
             "parts": [name(e.bodies.0), name(e.bodies.1)],
             "impulse": clean(e.impulse),
             "moving_together": together,
-        })
+        });
+        if let Some(stop) = e.contact.stop().map(|k| &self.system.forces.stops[k]) {
+            event["stop"] = json!(if stop.upper { "upper" } else { "lower" });
+        }
+        event
     }
 
     /// Contacts with their forces just after each instant at which something changed, and at the end.

@@ -16,6 +16,7 @@ use crate::settle::Closed;
 use crate::simulation::{
     AT_REST, MOST_AT_ONCE, Mode, Options, Run, Stats, Status, natural_time, position_scales,
 };
+use crate::work::applied_work;
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, ContactId, ContactLaw, ContactSource, Overlaps, System};
 
@@ -316,6 +317,7 @@ impl<'a> Compliant<'a> {
         let system = self.world.system;
         self.minima.stretch(system, &self.paths, self.t, t);
         self.energy.friction += friction_loss(system, &self.paths, self.t, t);
+        self.energy.work += applied_work(system, &self.paths, self.t, t);
         if let Some(track) = &mut self.track {
             track.ranges.extend(&self.paths, self.t, t);
             (track.from, track.to) = (self.t, t);
@@ -396,7 +398,7 @@ impl<'a> Compliant<'a> {
                 let state = self.group.state(k);
                 let tip = self.group.tips[k];
                 let force = self.group.force_of(k, &state).max(0.0);
-                Closed { candidate: tip.candidate, force, active: !tip.clamped }
+                Closed { candidate: tip.candidate, gap: 0.0, force, active: !tip.clamped }
             })
             .collect()
     }
@@ -538,7 +540,8 @@ impl<'a> Compliant<'a> {
             self.trajectory.pieces[i].push(piece);
         }
         self.energy.kinetic_max = self.energy.kinetic_max.max(self.minima.top);
-        self.energy.last = kinetic(self.world.system, &self.q, &self.v) + potential(self.world.system, &self.q);
+        self.energy.last =
+            kinetic(self.world.system, &self.q, &self.v) + potential(self.world.system, &self.q);
         self.closed();
         self.energy.contact_stored = self.group.stored();
         self.stats.gap_evaluations = self.world.evaluations + self.group.evaluations;
