@@ -28,7 +28,8 @@ def test_inspect_keys(inspected):
 def test_simulate_keys(simulation):
     found = json.loads(simulation.to_json())
     assert list(found) == SIMULATE
-    assert list(found["energy"]) == ["initial", "final", "friction", "impacts", "kinetic_max", "residual"]
+    account = ["initial", "final", "work", "friction", "impacts", "kinetic_max", "residual"]
+    assert list(found["energy"]) == account
     assert list(found["stats"]) == ["steps", "gap_evaluations", "impacts"]
     assert {tuple(e) for e in found["events"]} == {("t", "kind", "parts", "impulse", "moving_together")}
 

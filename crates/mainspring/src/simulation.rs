@@ -3,7 +3,7 @@
 use crate::contacts::contacts_json;
 use crate::options::check_simulation;
 use crate::words::{by_part, clean};
-use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
+use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at, kinetic};
 use mainspring_mechanism::{Mechanism, System};
 use mainspring_model::Error;
 use serde_json::{Map, Value, json};
@@ -119,6 +119,13 @@ impl SimulationResult {
                 (state.q * m.ratio, state.v * m.ratio)
             })
             .unzip()
+    }
+
+    /// Kinetic energy of everything that moves at time `t`.
+    pub fn kinetic_energy(&self, t: f64) -> f64 {
+        let states = (0..self.system.coordinates.len()).map(|i| self.run.trajectory.state(i, t));
+        let (q, v): (Vec<f64>, Vec<f64>) = states.map(|s| (s.q, s.v)).unzip();
+        kinetic(&self.system, &q, &v)
     }
 
     /// Values of parts from values of coordinates.
