@@ -43,7 +43,8 @@ class Prediction(Result):
     Attributes
     ----------
     reason
-        Why there is no pattern: `constant_kinetic_energy`, `max_minima`, `max_time`, `step_limit`; else None.
+        Why there is no pattern: `constant_kinetic_energy`, `max_minima`, `max_time`,
+        `step_limit`, `jammed` (a drive against what cannot give way); else None.
     pattern
         None unless it repeats.
     starts

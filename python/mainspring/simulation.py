@@ -64,6 +64,10 @@ class Trajectory:
         q, v = self._run.sample(times)
         return State(q, v) if np.ndim(t) else State(q[0], v[0])
 
+    def kinetic_energy(self, t: Floats) -> Floats:
+        """Return the kinetic energy of everything that moves at the times `t`, `(n,)`."""
+        return self._run.kinetic_energy(np.asarray(t, dtype=np.float64))
+
     def contacts(self, t: float) -> list[dict[str, Any]]:
         """Return what touches at an instant: parts, points, normal and force (docs/guide/json.md)."""
         found: list[dict[str, Any]] = json.loads(self._run.contacts_at(float(t)))
@@ -72,20 +76,24 @@ class Trajectory:
 
 @dataclass(frozen=True)
 class Event:
-    """An `impact`, `close` or `release` of a contact; `impulse` in mass units times velocity units."""
+    """An `impact`, `close` or `release` of a contact; `impulse` in mass units times velocity units.
+
+    `stop` is `lower` or `upper` for the stop of a joint, else None.
+    """
 
     t: float
     kind: str
     parts: tuple[str, ...]
     impulse: float | None
     moving_together: tuple[tuple[str, ...], ...]
+    stop: str | None = None
 
 
 @dataclass(frozen=True)
 class Energy:
     """The energy account of a run; losses positive.
 
-    `work` is done by drives and by constant torques and forces. `residual` is
+    `work` is what drives and constant torques did; `residual` is
     (initial + work - final - friction - impacts) / max(friction + impacts, kinetic_max).
     """
 
@@ -102,13 +110,14 @@ _ENDED = {
     "complete": "Ran for {} s.",
     "at_rest": "Came to rest after {} s and stays there.",
     "step_limit": "Met the limit of steps after {} s.",
+    "jammed": "After {} s a drive runs against parts that cannot give way.",
     "stopped": "Was stopped after {} s.",
 }
 
 
 @dataclass(frozen=True)
 class Simulation(Result):
-    """A simulated stretch; `status` is `complete`, `at_rest`, `step_limit` or `stopped`.
+    """A simulated stretch; `status` is `complete`, `at_rest`, `jammed`, `step_limit` or `stopped`.
 
     Attributes
     ----------
@@ -155,7 +164,14 @@ def result_of(run: _core.Run) -> Simulation:
     t = run.times()
     q, v = run.sample(t)
     events = (
-        Event(e["t"], e["kind"], tuple(e["parts"]), e["impulse"], tuple(map(tuple, e["moving_together"])))
+        Event(
+            e["t"],
+            e["kind"],
+            tuple(e["parts"]),
+            e["impulse"],
+            tuple(map(tuple, e["moving_together"])),
+            e.get("stop"),
+        )
         for e in o["events"]
     )
     return Simulation(

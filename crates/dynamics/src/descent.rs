@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn zeros_are_found_and_none_is_passed() {
-        for (height, fall) in [(1.0, 1.0), (0.25, 3.0), (1e-3, 2.0)] {
+        for (height, fall) in [(1.0f64, 1.0f64), (0.25, 3.0), (1e-3, 2.0)] {
             // x = h + t − f t²/2
             let look = |t: f64| Look { x: height + t - 0.5 * fall * t * t, rate: 1.0 - fall * t, bend: 10.0 };
             let exact = (1.0 + (1.0 + 2.0 * fall * height).sqrt()) / fall;

@@ -25,11 +25,13 @@ impl Freedom {
         Self { held, own }
     }
 
+    #[inline]
     pub fn is_held(&self, i: usize) -> bool {
         self.held[i]
     }
 
     /// Does coordinate `i` move freely, with an inertia of its own alone?
+    #[inline]
     pub fn is_alone(&self, i: usize) -> bool {
         self.own[i].is_finite()
     }
@@ -104,6 +106,7 @@ impl<'m> Inertia<'m> {
     }
 
     /// `G M⁻¹ Gᵀ` in row order.
+    #[inline]
     pub fn inverse(&self, rows: &[Row]) -> Small<f64, 16> {
         let n = rows.len();
         let mut a: Small<f64, 16> = smallvec::smallvec![0.0; n * n];
@@ -113,6 +116,12 @@ impl<'m> Inertia<'m> {
                 (a[i * n + j], a[j * n + i]) = (product, product);
             }
         }
+        self.add_blocks(rows, &mut a);
+        a
+    }
+
+    fn add_blocks(&self, rows: &[Row], a: &mut [f64]) {
+        let n = rows.len();
         for block in &self.blocks {
             let parts: Small<Option<Small<f64>>> = rows.iter().map(|row| block.part(row)).collect();
             for (i, part) in parts.iter().enumerate() {
@@ -124,7 +133,6 @@ impl<'m> Inertia<'m> {
                 }
             }
         }
-        a
     }
 
     /// Adds `M⁻¹ Gᵀ λ`.

@@ -29,7 +29,7 @@ const MOST_ROUNDS: usize = 40;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closed {
     pub candidate: Candidate,
-    /// Its gap when it was found closed: zero to rounding where contact is rigid.
+    /// Its gap when it was found closed: zero to rounding.
     pub gap: f64,
     /// Force along the normal; 0 for a contact that stays closed without force.
     pub force: f64,

@@ -29,6 +29,7 @@ pub struct Arm {
 impl Arm {
     /// The arm's length where slides later in the chain have moved; `moved` tells how far the coordinate of an arm
     /// (its place in the list) is from zero at most.
+    #[inline]
     pub fn reach(&self, moved: impl Fn(usize) -> f64) -> f64 {
         let slides = self.slides[..usize::from(self.slide_count)].iter();
         self.length + slides.map(|&(k, factor)| factor * moved(usize::from(k))).sum::<f64>()
@@ -80,6 +81,7 @@ pub struct Touch<'p> {
 
 impl Touch<'_> {
     /// ∂g/∂q.
+    #[inline]
     pub fn row(&self) -> Row {
         if let Some((i, slope)) = self.stop {
             return Row::single(i, slope);
@@ -88,6 +90,7 @@ impl Touch<'_> {
     }
 
     /// ġ at velocities `v`.
+    #[inline]
     pub fn rate(&self, v: &[f64]) -> f64 {
         match self.stop {
             Some((i, slope)) => slope * v[i],
@@ -96,6 +99,7 @@ impl Touch<'_> {
     }
 
     /// The part of g̈ that accelerations do not cause.
+    #[inline]
     pub fn bias(&self, v: &[f64]) -> f64 {
         match self.stop {
             Some(_) => 0.0,
@@ -135,11 +139,13 @@ impl<'a> World<'a> {
     }
 
     /// Force of dry friction on a sliding coordinate.
+    #[inline]
     pub fn dry_force(&self, i: usize) -> f64 {
         -self.sliding[i] * self.system.forces.coulomb[i]
     }
 
     /// Acceleration of a free coordinate that is tied to no other, without contacts.
+    #[inline]
     pub fn acceleration_alone(&self, i: usize, q: f64, v: f64) -> f64 {
         let c = &self.system.coordinates[i];
         let linear = c.free_acceleration(q, v);
@@ -189,6 +195,7 @@ impl<'a> World<'a> {
     }
 
     /// Evaluates a contact or a stop between its bodies at positions `q`.
+    #[inline]
     pub fn touch_at<'p>(
         &mut self,
         c: &Candidate,

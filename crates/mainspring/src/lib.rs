@@ -6,7 +6,6 @@ mod inspect;
 mod joints;
 mod options;
 mod prediction;
-mod scope;
 mod sentences;
 mod simulation;
 mod words;

@@ -1,7 +1,6 @@
 //! `predict`: what the machine will do, and the stretch of motion it was read from.
 
 use crate::options::check_prediction;
-use crate::scope::check_rigid;
 use crate::sentences::sentences;
 use crate::simulation::{SimulationOptions, SimulationResult};
 use crate::words::clean;
@@ -32,7 +31,6 @@ pub fn predict(
 ) -> Result<PredictionResult, Error> {
     check_prediction(options)?;
     let system = Arc::new(mechanism.system()?);
-    check_rigid(mechanism, &system)?;
     let source = system.direct_search();
     let found = mainspring_behavior::predict(&system, &source, options, progress);
     let simulation = SimulationOptions {

@@ -1,5 +1,6 @@
 //! The answer in plain words, angles in degrees.
 
+use crate::contacts::bodies;
 use crate::prediction::PredictionResult;
 use crate::words::{list, number};
 use mainspring_behavior::{NoPattern, Outcome, Pattern};
@@ -67,8 +68,13 @@ fn rests(p: &PredictionResult, t: f64, held: &[Closed], jammed: bool) -> Vec<Str
     let mut pairs: Vec<String> = held
         .iter()
         .map(|c| {
-            let (a, b) = system.interactions[c.candidate.id.interaction as usize].bodies;
-            format!("{} against {}", system.bodies[a].name, system.bodies[b].name)
+            let (a, b) = bodies(system, c.candidate.id);
+            let (a, b) = (&system.bodies[a].name, &system.bodies[b].name);
+            if c.candidate.id.stop().is_some() {
+                format!("{a} on its stop against {b}")
+            } else {
+                format!("{a} against {b}")
+            }
         })
         .collect();
     pairs.dedup();

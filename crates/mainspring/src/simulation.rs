@@ -2,9 +2,8 @@
 
 use crate::contacts::contacts_json;
 use crate::options::check_simulation;
-use crate::scope::check_rigid;
 use crate::words::{by_part, clean};
-use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
+use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at, kinetic};
 use mainspring_mechanism::{Mechanism, System};
 use mainspring_model::Error;
 use serde_json::{Map, Value, json};
@@ -60,7 +59,6 @@ pub fn simulate(
 ) -> Result<SimulationResult, Error> {
     check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
-    check_rigid(mechanism, &system)?;
     let source = system.direct_search();
     let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
     let start = Instant::now();
@@ -121,6 +119,13 @@ impl SimulationResult {
                 (state.q * m.ratio, state.v * m.ratio)
             })
             .unzip()
+    }
+
+    /// Kinetic energy of everything that moves at time `t`.
+    pub fn kinetic_energy(&self, t: f64) -> f64 {
+        let states = (0..self.system.coordinates.len()).map(|i| self.run.trajectory.state(i, t));
+        let (q, v): (Vec<f64>, Vec<f64>) = states.map(|s| (s.q, s.v)).unzip();
+        kinetic(&self.system, &q, &v)
     }
 
     /// Values of parts from values of coordinates.
@@ -202,13 +207,17 @@ impl SimulationResult {
         };
         let together: Vec<Vec<String>> =
             e.moving_together.iter().map(|g| g.iter().map(|&i| name(i)).collect()).collect();
-        json!({
+        let mut event = json!({
             "t": e.t,
             "kind": kind,
             "parts": [name(e.bodies.0), name(e.bodies.1)],
             "impulse": clean(e.impulse),
             "moving_together": together,
-        })
+        });
+        if let Some(stop) = e.contact.stop().map(|k| &self.system.forces.stops[k]) {
+            event["stop"] = json!(if stop.upper { "upper" } else { "lower" });
+        }
+        event
     }
 
     /// Contacts with their forces just after each instant at which something changed, and at the end.

@@ -207,13 +207,21 @@ impl GapState {
     }
 
     /// `G = ∂g/∂q`. Joints that carry both bodies have no part in it, exactly.
+    #[inline]
     pub fn row(&self, a: &Placed, b: &Placed) -> Row {
-        match a.shared(b) {
-            0 => self.row_between(a, b),
-            k => self.row_between(&a.carried_by(k), &b.carried_by(k)),
+        let shared = a.shared(b);
+        if shared > 0 {
+            return self.row_against(a, b, shared);
         }
+        self.row_between(a, b)
     }
 
+    #[cold]
+    fn row_against(&self, a: &Placed, b: &Placed, shared: usize) -> Row {
+        self.row_between(&a.carried_by(shared), &b.carried_by(shared))
+    }
+
+    #[inline]
     fn row_between(&self, a: &Placed, b: &Placed) -> Row {
         let mut row = Row::default();
         a.add_to_row(&mut row, self.normal, self.carried, 1.0);
@@ -223,24 +231,38 @@ impl GapState {
 
     /// ġ at velocities `v`.
     pub fn rate(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
-        match a.shared(b) {
-            0 => self.rate_between(a, b, v),
-            k => self.rate_between(&a.carried_by(k), &b.carried_by(k), v),
+        let shared = a.shared(b);
+        if shared > 0 {
+            return self.rate_against(a, b, v, shared);
         }
+        self.rate_between(a, b, v)
     }
 
+    #[cold]
+    fn rate_against(&self, a: &Placed, b: &Placed, v: &[f64], shared: usize) -> f64 {
+        self.rate_between(&a.carried_by(shared), &b.carried_by(shared), v)
+    }
+
+    #[inline]
     fn rate_between(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
         self.normal.dot(a.velocity(self.carried, v) - b.velocity(self.partner(), v))
     }
 
     /// γ = q̇ᵀ (∂²g/∂q²) q̇: the part of g̈ that joint accelerations do not cause.
     pub fn bias(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
-        match a.shared(b) {
-            0 => self.bias_between(a, b, v),
-            k => self.bias_between(&a.carried_by(k), &b.carried_by(k), v),
+        let shared = a.shared(b);
+        if shared > 0 {
+            return self.bias_against(a, b, v, shared);
         }
+        self.bias_between(a, b, v)
     }
 
+    #[cold]
+    fn bias_against(&self, a: &Placed, b: &Placed, v: &[f64], shared: usize) -> f64 {
+        self.bias_between(&a.carried_by(shared), &b.carried_by(shared), v)
+    }
+
+    #[inline]
     fn bias_between(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
         let (ma, mb) = (a.motion(self.carried, v), b.motion(self.partner(), v));
         let (velocity, bias) = (ma.velocity - mb.velocity, ma.bias - mb.bias);

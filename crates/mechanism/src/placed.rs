@@ -79,8 +79,6 @@ impl Row {
 pub struct Placed<'b> {
     pub pose: Pose,
     chain: &'b [Joint],
-    /// Joints before this one are left out of the motion.
-    first: usize,
     /// For each joint the centre of a turn or the direction of a slide, in the machine.
     at: [Vec2; MAX_CHAIN],
 }
@@ -96,7 +94,7 @@ impl<'b> Placed<'b> {
     /// Joints beyond `MAX_CHAIN` are not looked at; `System::new` allows none.
     pub fn new(body: &'b Body, q: &[f64]) -> Self {
         let mut placed =
-            Self { pose: Pose::identity(), chain: &body.chain, first: 0, at: [Vec2::default(); MAX_CHAIN] };
+            Self { pose: Pose::identity(), chain: &body.chain, at: [Vec2::default(); MAX_CHAIN] };
         for (k, joint) in body.chain.iter().enumerate().take(MAX_CHAIN) {
             let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
             if k == 0 {
@@ -113,18 +111,20 @@ impl<'b> Placed<'b> {
     }
 
     /// How many joints both chains begin with: they move both bodies alike, and nothing between them depends on it.
+    #[inline]
     pub fn shared(&self, other: &Self) -> usize {
         self.chain.iter().zip(other.chain).take_while(|(j, k)| j == k).count()
     }
 
     /// The same place, moved only by the joints from `first` on: the motion against whatever carries these.
     pub fn carried_by(&self, first: usize) -> Self {
-        Self { first, ..*self }
+        let mut at = self.at;
+        at.rotate_left(first.min(MAX_CHAIN));
+        Self { pose: self.pose, chain: &self.chain[first..], at }
     }
 
     fn joints(&self) -> impl Iterator<Item = (&Joint, Vec2, bool)> {
-        let chain = self.chain.iter().zip(self.at).skip(self.first);
-        chain.map(|(j, at)| (j, at, matches!(j.motion, Motion::Turn { .. })))
+        self.chain.iter().zip(self.at).map(|(j, at)| (j, at, matches!(j.motion, Motion::Turn { .. })))
     }
 
     /// Adds `sign · n · ∂p/∂q` to a row, for the body's point now at `p`.

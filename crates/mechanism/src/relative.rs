@@ -32,12 +32,20 @@ pub struct Relative {
 impl Relative {
     /// Of bodies `a` and `b` at velocities `v` and accelerations `dv` of the coordinates.
     pub fn new(a: &Placed, b: &Placed, v: &[f64], dv: &[f64]) -> Self {
-        match a.shared(b) {
-            0 => Self::between(a, b, v, dv),
-            k => Self::between(&a.carried_by(k), &b.carried_by(k), v, dv),
+        let shared = a.shared(b);
+        if shared > 0 {
+            return Self::against(a, b, v, dv, shared);
         }
+        Self::between(a, b, v, dv)
     }
 
+    /// Joints that carry both bodies have no part in it.
+    #[cold]
+    fn against(a: &Placed, b: &Placed, v: &[f64], dv: &[f64], shared: usize) -> Self {
+        Self::between(&a.carried_by(shared), &b.carried_by(shared), v, dv)
+    }
+
+    #[inline]
     fn between(a: &Placed, b: &Placed, v: &[f64], dv: &[f64]) -> Self {
         let (a_field, b_field) = (a.field(v, dv), b.field(v, dv));
         let shift = b.pose.shift;

@@ -91,6 +91,16 @@ impl PyRun {
         Ok((array(|s| &s.0)?, array(|s| &s.1)?))
     }
 
+    /// The kinetic energy at the times `t`, `(n,)`.
+    fn kinetic_energy<'py>(
+        &self,
+        py: Python<'py>,
+        t: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        t.as_array().iter().try_for_each(|t| self.check_time(*t))?;
+        Ok(PyArray1::from_iter(py, t.as_array().iter().map(|t| self.0.kinetic_energy(*t))))
+    }
+
     /// What touches at `t`, as a JSON list.
     fn contacts_at(&self, t: f64) -> PyResult<String> {
         self.check_time(t)?;

@@ -115,6 +115,7 @@ def energy_rows(result: Simulation) -> list[tuple[str, str]]:
     e = result.energy
     return [
         ("at the start", tables.signed(e.initial, 8)),
+        *([("done by drives and torques", tables.signed(e.work, 8))] if e.work else []),
         ("lost to friction", tables.signed(e.friction, 8)),
         ("lost at impacts", tables.signed(e.impacts, 8)),
         ("at the end", tables.signed(e.final, 8)),
