@@ -3,6 +3,7 @@
 
 VENV := .venv
 PYTHON ?= python3
+BENCH ?= # options of benchmarks/run.py, as in BENCH="--contact rigid"
 PY := $(VENV)/bin/python
 export PYO3_PYTHON := $(CURDIR)/$(VENV)/bin/python
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
@@ -46,9 +47,8 @@ benchmarks/$(VENV)/ready: benchmarks/requirements.txt
 	benchmarks/$(VENV)/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	touch $@
 
-bench: build benchmarks/$(VENV)/ready ## time the escapement on one thread, alone and beside MuJoCo and pymunk
-	$(PY) benchmarks/escapement.py
-	benchmarks/$(VENV)/bin/python benchmarks/run.py
+bench: build benchmarks/$(VENV)/ready ## measure time, error and memory on one thread beside MuJoCo and pymunk; takes minutes
+	benchmarks/$(VENV)/bin/python benchmarks/run.py $(BENCH)
 
 docs: build ## check the documentation: links, keys, pages without a way to them
 	$(PY) scripts/check_docs.py

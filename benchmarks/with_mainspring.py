@@ -1,36 +1,70 @@
-"""Mainspring, called as a user calls it: one command, a fresh process for every run."""
+"""Mainspring in its own environment: repeated runs in one process, as the peers are run."""
 
 import json
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from motion import period
 from scene import UNTIL
 
 NAME = "mainspring"
 RTOL = 1e-8
-REFINED = 1e-12
+# The tolerances of the picture, and the two that the limit and its doubt are taken from.
+RTOLS = (1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
+REFINED = (1e-13, 1e-12)
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = Path(".venv/bin/mainspring")
-MODEL = Path("examples/escapement/escapement.padl")
+PYTHON = ROOT / ".venv/bin/python"
+ESCAPEMENT = "examples/escapement/escapement.padl"
 
 
-def call(*arguments: str) -> str:
-    """Return what the program prints; raises if it was not built or fails."""
-    if not (ROOT / PROGRAM).exists():
-        raise SystemExit(f"{PROGRAM} is missing: run `make build` first")
-    command = [str(ROOT / PROGRAM), *arguments]
-    return subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
+@dataclass(frozen=True)
+class Runs:
+    """Repeated runs of one setting: seconds of the integration alone, and the result, the same every time."""
+
+    walls: list[float]
+    result: dict[str, Any]
+
+    @property
+    def period(self) -> float:
+        """Return the mean duration of a pattern, told by the kinetic-energy minima."""
+        return period(np.array(self.result["kinetic_energy_minima"]))
 
 
 def version() -> str:
     """Return the program's version."""
-    return call("--version").split()[-1]
+    if not (ROOT / PROGRAM).exists():
+        raise SystemExit(f"{PROGRAM} is missing: run `make build` first")
+    return call(str(ROOT / PROGRAM), "--version").split()[-1]
 
 
-def simulate(rtol: float) -> tuple[list[float], float, dict[str, Any]]:
-    """Return the kinetic-energy minima, the wall seconds of the integration alone, and the counts of work."""
-    options = ("--until", f"{UNTIL:g}", "--rtol", f"{rtol:g}", "--json", "--timing")
-    result = json.loads(call("simulate", str(MODEL), *options))
-    stats = result["stats"]
-    return result["kinetic_energy_minima"], stats["wall_seconds"], stats
+def call(*command: str) -> str:
+    """Return what a command prints; ends the run with what it said if it fails."""
+    done = subprocess.run(command, check=False, capture_output=True, text=True, cwd=ROOT)
+    if done.returncode != 0:
+        raise SystemExit(f"{' '.join(command[1:])}:\n{done.stderr.strip()}")
+    return done.stdout
+
+
+def has(contact: str) -> bool:
+    """Return whether the program knows a contact model."""
+    return contact in call(str(ROOT / PROGRAM), "simulate", "--help")
+
+
+def simulate(
+    contact: str,
+    rtol: float = RTOL,
+    until: float = UNTIL,
+    runs: int = 1,
+    model: str = ESCAPEMENT,
+    supplement: str | None = None,
+) -> Runs:
+    """Run a machine several times in a fresh process."""
+    wanted = (f"--contact={contact}", f"--rtol={rtol!r}", f"--until={until!r}", f"--runs={runs}")
+    more = () if supplement is None else (f"--supplement={supplement}",)
+    answer = json.loads(call(str(PYTHON), "benchmarks/repeat.py", model, *wanted, *more))
+    return Runs(answer["walls"], answer["result"])

@@ -18,6 +18,9 @@ BAD_USAGE = [
     ("simulate", ESCAPEMENT, "--until", "1", "--contact", "soft"),
     ("simulate", ESCAPEMENT, "--until", "1", "--csv"),
     ("simulate", ESCAPEMENT, "--until", "1", "--rtol", "-1"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--rtol", "1e-20"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--rtol", "0.5"),
+    ("simulate", ESCAPEMENT, "--until", "1", "--keep-axial"),
     ("simulate", ESCAPEMENT, "--until", "1", "--position", "lever=4"),
     ("simulate", ESCAPEMENT, "--until", "1", "--position", "lever=4deg/s"),
     ("simulate", ESCAPEMENT, "--until", "1", "--velocity", "lever=4deg"),
@@ -31,6 +34,7 @@ BAD_USAGE = [
     ("predict", ESCAPEMENT, "--confirm", "0"),
     ("predict", ESCAPEMENT, "--confirm", "two"),
     ("predict", ESCAPEMENT, "--range-fraction", "0"),
+    ("predict", ESCAPEMENT, "--time-match", "2"),
     ("examples", "carriage", "x"),
     ("examples", "escapement"),
     ("cite", ESCAPEMENT),
@@ -43,6 +47,8 @@ def _refused(done, tmp_path):
     assert done.stderr.count("\n") == 1, done.stderr
     assert "Traceback" not in done.stderr
     assert "error: " in done.stderr
+    by_the_parser = "--help)" in done.stderr
+    assert by_the_parser or "; expected " in done.stderr, done.stderr
     assert list(tmp_path.iterdir()) == []
 
 
@@ -91,8 +97,26 @@ def test_nothing_is_left_when_a_file_cannot_be_written(cli, tmp_path):
     done = cli("simulate", ESCAPEMENT, "--until", "1", "--out", "wall")
     assert done.returncode == 2
     assert done.stdout == ""
-    assert done.stderr.count("\n") == 1
+    assert re.fullmatch(r"wall/result\.json:1:1: error: [^\n]+; expected [^\n]+\n", done.stderr), done.stderr
     assert [p.name for p in tmp_path.iterdir()] == ["wall"]
+
+
+def test_what_is_no_prism_is_named_and_nothing_else(cli, tmp_path):
+    text = ESCAPEMENT.read_text()
+    arm = "(blo(x=1,y=8) at (movx=-.5,movy=8))"
+    assert arm in text
+    (tmp_path / "cone.padl").write_text(text.replace(arm, "(con(d=1,h=8) at (degx=-90,movy=8,movz=0.5))"))
+    (tmp_path / "cone.sup").write_text(ESCAPEMENT.with_suffix(".sup").read_text())
+    done = cli("simulate", "cone.padl", "--until", "1")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.fullmatch(
+        r"cone\.padl:30:\d+: error: [^\n]*lever \(con\)[^\n]*; expected [^\n]+\n", done.stderr
+    )
+    seen = cli("inspect", "cone.padl")
+    assert seen.returncode == 0
+    warned = seen.stderr.splitlines()
+    assert warned
+    assert all(re.fullmatch(r"cone\.(padl|sup):\d+:\d+: warning: .+", line) for line in warned), warned
 
 
 def test_examples_never_overwrites(cli, tmp_path):

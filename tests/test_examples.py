@@ -8,9 +8,15 @@ import pytest
 import mainspring as ms
 from conftest import ROOT
 
+
+def _name(folder, case) -> str:
+    said = (folder.name, case.get("supplement"), case["command"], ".".join(map(str, case["path"])))
+    return "-".join(filter(None, said))
+
+
 FOLDERS = sorted(p.parent for p in (ROOT / "examples").glob("*/expected.toml"))
 EXPECTED = [
-    pytest.param(folder, case, id=f"{folder.name}-{case['command']}-{'.'.join(map(str, case['path']))}")
+    pytest.param(folder, case, id=_name(folder, case))
     for folder in FOLDERS
     for case in tomllib.loads((folder / "expected.toml").read_text(encoding="utf-8"))["expect"]
 ]
@@ -18,9 +24,10 @@ _answers: dict[tuple, dict] = {}
 
 
 def _answer(folder, case) -> dict:
-    key = (folder.name, case["command"], case.get("until"))
+    key = (folder.name, case.get("supplement"), case["command"], case.get("until"))
     if key not in _answers:
-        mechanism = ms.load(folder / f"{folder.name}.padl").compile()
+        supplement = folder / case["supplement"] if "supplement" in case else None
+        mechanism = ms.load(folder / f"{folder.name}.padl", supplement).compile()
         made = {
             "inspect": lambda: ms.find_pairs(mechanism),
             "simulate": lambda: ms.simulate(mechanism, case["until"]),

@@ -5,18 +5,22 @@ import json
 import mainspring as ms
 from conftest import ROOT
 
-INSPECT = ["parts", "frame", "pairs", "subsystems", "state_variables", "interactions"]
-INSPECT += ["near_misses", "closed_chains", "mobility", "warnings", "plane", "units"]
+INSPECT = ["parts", "frame", "pairs", "joints", "subsystems", "state_variables", "interactions"]
+INSPECT += ["near_misses", "closed_chains", "mobility", "warnings", "plane", "gravity", "contact", "units"]
 SIMULATE = ["status", "advice", "t", "positions", "velocities", "kinetic_energy_minima"]
 SIMULATE += ["events", "energy", "stats"]
 PREDICT = ["status", "reason", "pattern", "starts", "rest", "simulated_seconds", "hypotheses"]
 PREDICT += ["sentences", "stats"]
+JOINT = ["part", "carrier", "motion", "position", "velocity", "inertia", "mass", "center", "friction"]
+JOINT += ["coulomb", "spring", "torque", "drive", "stops"]
 PAIR = ["kind", "shape_kind", "parts", "axis", "ratio", "clearance", "evidence"]
 
 
 def test_inspect_keys(inspected):
     assert list(inspected) == INSPECT
     assert list(inspected["pairs"][0]) == PAIR
+    assert list(inspected["joints"][0]) == JOINT
+    assert list(inspected["contact"]) == ["E", "D", "M"]
     assert list(inspected["pairs"][0]["axis"]) == ["point", "direction"]
     assert list(inspected["subsystems"][0]) == ["root", "parts", "ratios", "inertia", "locked"]
 
@@ -24,7 +28,8 @@ def test_inspect_keys(inspected):
 def test_simulate_keys(simulation):
     found = json.loads(simulation.to_json())
     assert list(found) == SIMULATE
-    assert list(found["energy"]) == ["initial", "final", "friction", "impacts", "kinetic_max", "residual"]
+    account = ["initial", "final", "work", "friction", "impacts", "kinetic_max", "residual"]
+    assert list(found["energy"]) == account
     assert list(found["stats"]) == ["steps", "gap_evaluations", "impacts"]
     assert {tuple(e) for e in found["events"]} == {("t", "kind", "parts", "impulse", "moving_together")}
 
@@ -51,4 +56,4 @@ def test_predict_keys(prediction):
 
 def test_every_key_is_documented():
     told = (ROOT / "docs" / "guide" / "json.md").read_text(encoding="utf-8")
-    assert [k for k in INSPECT + SIMULATE + PREDICT if f"`{k}`" not in told] == []
+    assert [k for k in INSPECT + JOINT + SIMULATE + PREDICT if f"`{k}`" not in told] == []

@@ -2,12 +2,13 @@
 
 import dataclasses
 import json
+import math
 
 import numpy as np
 import pytest
 
 import mainspring as ms
-from conftest import ESCAPEMENT
+from conftest import ESCAPEMENT, ROOT
 
 
 def test_the_machine_tells_its_parameters():
@@ -76,3 +77,57 @@ def test_public_names_exist():
         assert getattr(ms, name) is not None
     with pytest.raises(AttributeError):
         _ = ms.no_such_name
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"until": math.nan},
+        {"until": math.inf},
+        {"until": 0},
+        {"until": -1},
+        {"until": 1, "rtol": 0},
+        {"until": 1, "rtol": math.nan},
+        {"until": 1, "rtol": 0.1},
+        {"until": 1, "positions": {"lever": math.nan}},
+        {"until": 1, "velocities": {"pawl": 1}},
+        {"until": 1, "contact": "soft"},
+    ],
+)
+def test_a_run_that_makes_no_sense_is_refused(mechanism, options):
+    with pytest.raises(ms.InputError, match=r"^--[a-z-]+:1:1: error: .*; expected "):
+        ms.simulate(mechanism, **options)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"confirm": 0},
+        {"ignore": -1},
+        {"range_fraction": math.nan},
+        {"time_match": -1},
+        {"state_match": 0},
+        {"max_minima": 0},
+        {"max_time": math.inf},
+        {"rtol": 1e-20},
+    ],
+)
+def test_a_search_that_makes_no_sense_is_refused(mechanism, options):
+    with pytest.raises(ms.InputError, match=r"^--[a-z-]+:1:1: error: .*; expected "):
+        ms.predict(mechanism, **options)
+
+
+@pytest.mark.parametrize("t", [math.nan, -1e-9, 37.1, math.inf])
+def test_the_motion_is_told_only_where_it_is_known(simulation, t):
+    with pytest.raises(ValueError, match="expected one within the run"):
+        simulation.trajectory.at(t)
+    with pytest.raises(ValueError, match="expected one within the run"):
+        simulation.trajectory.contacts(t)
+
+
+def test_a_machine_at_rest_stays_there():
+    slide = ms.load(ROOT / "examples" / "slide" / "slide.padl").compile()
+    run = ms.simulate(slide, 10.0)
+    assert run.status == "at_rest"
+    assert run.trajectory.at(9.0).q == pytest.approx([-3.0])
+    assert run.trajectory.at(9.0).v == [0.0]

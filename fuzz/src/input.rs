@@ -1,8 +1,9 @@
-//! Inputs: shipped examples and random programs, mutated; token soup; random bytes.
+//! Inputs: shipped examples, random programs and random machines, mutated; token soup; random bytes.
 
 use crate::program::Program;
 use crate::random::Random;
 use crate::soup::{NUMBERS, STRANGE, TOKENS};
+use crate::workshop::Workshop;
 
 /// A model and its supplement.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,7 +24,11 @@ pub fn input(seed: u64, index: u64) -> Input {
     let (model, supplement) = match random.below(10) {
         0 => (soup(random).into_bytes(), Some(soup(random).into_bytes())),
         1 => (bytes(random), Some(SUPPLEMENT.as_bytes().to_vec())),
-        2..=4 => (MODEL.as_bytes().to_vec(), Some(SUPPLEMENT.as_bytes().to_vec())),
+        2 | 3 => (MODEL.as_bytes().to_vec(), Some(SUPPLEMENT.as_bytes().to_vec())),
+        4..=6 => {
+            let (model, supplement) = Workshop::new(random).write();
+            (model.into_bytes(), Some(supplement.into_bytes()))
+        }
         _ => {
             let (model, supplement) = Program::new(random).write();
             (model.into_bytes(), Some(supplement.into_bytes()))

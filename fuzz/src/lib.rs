@@ -1,6 +1,6 @@
 //! A deterministic fuzzer for what users hand in: input i of a seed is always the same bytes.
 //!
-//! Inputs are mutated examples, random programs of the language, token soup and random bytes ([`input`]). Each is
+//! Inputs are mutated examples, random programs of the language, random machines, token soup and random bytes ([`input`]). Each is
 //! given to every [`Target`]; a panic, an error that breaks the rules for messages, a broken promise of the model,
 //! or more than a given time is a failure ([`run`]).
 
@@ -10,6 +10,7 @@ mod random;
 mod run;
 mod soup;
 mod target;
+mod workshop;
 
 pub use input::{Input, input};
 pub use random::Random;

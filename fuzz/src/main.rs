@@ -1,6 +1,7 @@
 //! `cargo run --release -p mainspring-fuzz -- --inputs 1000000 --seed 1`
 //!
-//! With `--steps 2` accepted machines are compiled as well; without it only the model is tried.
+//! With `--steps 2` accepted machines are compiled as well, with `--steps 3` they are inspected and run for some
+//! steps; without it only the model is tried.
 //! With `--show N` input N is printed instead. Ends with 1 if anything failed.
 
 use mainspring_fuzz::{Options, SLOW, Summary, input, run};

@@ -15,7 +15,7 @@ pub struct Options {
     pub from: u64,
     pub inputs: u64,
     pub threads: u64,
-    /// How many of [`TARGETS`] are tried: 1 the model, 2 the compilation as well.
+    /// How many of [`TARGETS`] are tried: 1 the model, 2 the compilation as well, 3 a short run.
     pub steps: usize,
     /// Longest time that an input may take.
     pub patience: Duration,
@@ -68,10 +68,13 @@ fn run_share(options: Options, thread: u64, threads: u64) -> Summary {
     let mut summary = Summary::default();
     for index in (options.from..options.from + options.inputs).filter(|i| i % threads == thread) {
         let given = input(options.seed, index);
-        let start = Instant::now();
-        let outcome = catch_unwind(AssertUnwindSafe(|| try_input(&given, options.steps)))
-            .unwrap_or_else(|panic| Err(format!("panic: {}", panic_text(&*panic))));
-        let time = start.elapsed();
+        let (mut time, outcome) = timed(&given, options.steps);
+        // On a busy machine a short way may take long; a long one takes long again.
+        for _ in 0..AGAIN {
+            if time > options.patience {
+                time = time.min(timed(&given, options.steps).0);
+            }
+        }
         summary.inputs += 1;
         summary.slowest = summary.slowest.max(time);
         match outcome {
@@ -86,6 +89,16 @@ fn run_share(options: Options, thread: u64, threads: u64) -> Summary {
         }
     }
     summary
+}
+
+/// How often a slow input is tried again.
+const AGAIN: usize = 2;
+
+fn timed(input: &Input, steps: usize) -> (Duration, Result<Reached, String>) {
+    let start = Instant::now();
+    let outcome = catch_unwind(AssertUnwindSafe(|| try_input(input, steps)))
+        .unwrap_or_else(|panic| Err(format!("panic: {}", panic_text(&*panic))));
+    (start.elapsed(), outcome)
 }
 
 /// How far an input came.

@@ -1,5 +1,6 @@
 //! What is tried with each machine that the parser accepts. Later steps of the program add a line to [`TARGETS`].
 
+use mainspring::{SimulationOptions, inspect_json};
 use mainspring_geometry::Primitive;
 use mainspring_mechanism::{CompileOptions, Mechanism};
 use mainspring_model::{Error, Machine, Values};
@@ -13,8 +14,11 @@ pub struct Target {
 }
 
 /// The steps in the order of the program's path.
-pub const TARGETS: &[Target] =
-    &[Target { name: "model", check: model }, Target { name: "compile", check: compile }];
+pub const TARGETS: &[Target] = &[
+    Target { name: "model", check: model },
+    Target { name: "compile", check: compile },
+    Target { name: "simulate", check: simulate },
+];
 
 /// Values and primitives: finite, positive, and the same to the last bit over dual numbers.
 fn model(machine: &Arc<Machine>) -> Result<Option<Error>, String> {
@@ -36,6 +40,33 @@ fn compile(machine: &Arc<Machine>) -> Result<Option<Error>, String> {
             _ => false,
         };
     if same { Ok(first.err()) } else { Err("two compilations of one machine differ".to_string()) }
+}
+
+/// Steps of a simulation.
+const STEPS: u64 = 200;
+/// Up to this time: far enough for most parts to hit something.
+const UNTIL: f64 = 10.0;
+
+/// What `inspect` prints, and the first steps of a run: every number finite.
+fn simulate(machine: &Arc<Machine>) -> Result<Option<Error>, String> {
+    let mechanism = match Mechanism::compile(machine.clone(), &[], &CompileOptions::default()) {
+        Ok(mechanism) => mechanism,
+        Err(e) => return Ok(Some(e)),
+    };
+    inspect_json(&mechanism);
+    let options = SimulationOptions { until: UNTIL, max_steps: STEPS, ..SimulationOptions::default() };
+    let result = match mainspring::simulate(&mechanism, &options, &mut |_| true) {
+        Ok(result) => result,
+        Err(e) => return Ok(Some(e)),
+    };
+    let end = result.times().last().copied().unwrap_or(0.0);
+    let (positions, velocities) = result.at(end);
+    let finite = positions.iter().chain(&velocities).all(|x| x.is_finite());
+    if finite && end <= UNTIL {
+        Ok(None)
+    } else {
+        Err(format!("at {end} positions {positions:?}, velocities {velocities:?}"))
+    }
 }
 
 type Evaluated = (Values<f64>, Vec<Primitive>);

@@ -105,6 +105,9 @@ class Run:
     def sample(self, t: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return `q, v`, each `(n, parts)`, at the times `t`, `(n,)`."""
 
+    def kinetic_energy(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the kinetic energy at the times `t`, `(n,)`."""
+
     def contacts_at(self, t: float) -> str:
         """Return what touches at `t`.
 

@@ -50,6 +50,58 @@ class Pair:
 
 
 @dataclass(frozen=True)
+class Drive:
+    """A prescribed motion: a constant speed, or points (time, position); the other is None."""
+
+    speed: float | None
+    table: tuple[tuple[float, float], ...] | None
+
+
+@dataclass(frozen=True)
+class Joint:
+    """How a part hangs on its carrier and what acts between them; angles in radians.
+
+    Attributes
+    ----------
+    part, carrier
+        Names; the carrier is the frame or another moving part.
+    motion
+        `turn` or `slide`.
+    position, velocity
+        At the start.
+    inertia
+        About the joint's axis, or the mass of a sliding part; None if not known.
+    mass, center
+        Mass and centre of mass as modelled; None where nothing asked for them.
+    friction, coulomb
+        Viscous friction, and the size of dry friction.
+    spring
+        Relaxed position and constant; None without one.
+    torque
+        Constant torque or force.
+    drive
+        Prescribed motion; None without one.
+    stops
+        Least and greatest position, each None where there is none.
+    """
+
+    part: str
+    carrier: str
+    motion: str
+    position: float
+    velocity: float
+    inertia: float | None
+    mass: float | None
+    center: Point | None
+    friction: float
+    coulomb: float
+    spring: tuple[float, float] | None
+    torque: float
+    drive: Drive | None
+    stops: tuple[float | None, float | None]
+
+
+@dataclass(frozen=True)
 class Subsystem:
     """Parts that share one freedom.
 
@@ -95,6 +147,7 @@ class Kinematics(Result):
     parts: tuple[str, ...]
     frame: str | None
     pairs: tuple[Pair, ...]
+    joints: tuple[Joint, ...]
     subsystems: tuple[Subsystem, ...]
     state_variables: tuple[str, ...]
     interactions: tuple[tuple[str, ...], ...]
@@ -102,6 +155,8 @@ class Kinematics(Result):
     closed_chains: tuple[ClosedChain, ...]
     mobility: int
     warnings: tuple[str, ...]
+    gravity: Point
+    contact: Mapping[str, float]
     units: Mapping[str, Any]
 
     def _sentences(self) -> Iterable[str]:
@@ -123,6 +178,21 @@ def _pair(p: dict[str, Any]) -> Pair:
         p["clearance"],
         tuple(p["evidence"]),
     )
+
+
+def _drive(d: dict[str, Any]) -> Drive:
+    table = d["table"]
+    return Drive(d["speed"], tuple((t, x) for t, x in table) if table is not None else None)
+
+
+def _joint(j: dict[str, Any]) -> Joint:
+    own = dict(j)
+    low, high = j["stops"] or (None, None)
+    own["center"] = tuple(j["center"]) if j["center"] else None
+    own["spring"] = (j["spring"]["relaxed"], j["spring"]["constant"]) if j["spring"] else None
+    own["drive"] = _drive(j["drive"]) if j["drive"] else None
+    own["stops"] = (low, high)
+    return Joint(**own)
 
 
 def _subsystem(s: dict[str, Any]) -> Subsystem:
@@ -150,6 +220,7 @@ def find_pairs(mechanism: Mechanism) -> Kinematics:
         parts=tuple(o["parts"]),
         frame=o["frame"],
         pairs=tuple(_pair(p) for p in o["pairs"]),
+        joints=tuple(_joint(j) for j in o["joints"]),
         subsystems=tuple(_subsystem(s) for s in o["subsystems"]),
         state_variables=tuple(o["state_variables"]),
         interactions=tuple(tuple(i) for i in o["interactions"]),
@@ -157,5 +228,7 @@ def find_pairs(mechanism: Mechanism) -> Kinematics:
         closed_chains=tuple(ClosedChain(tuple(c["parts"]), c["mobility"]) for c in o["closed_chains"]),
         mobility=o["mobility"],
         warnings=tuple(o["warnings"]),
+        gravity=tuple(o["gravity"]),
+        contact=frozen(o["contact"]),
         units=frozen(o["units"]),
     )

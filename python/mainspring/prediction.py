@@ -43,7 +43,8 @@ class Prediction(Result):
     Attributes
     ----------
     reason
-        Why there is no pattern: `constant_kinetic_energy`, `max_minima`, `max_time`, `step_limit`; else None.
+        Why there is no pattern: `constant_kinetic_energy`, `max_minima`, `max_time`,
+        `step_limit`, `jammed` (a drive against what cannot give way); else None.
     pattern
         None unless it repeats.
     starts
@@ -114,6 +115,11 @@ def predict(
         P_s_v_match: allowed difference of changes, relative to the range within one pattern.
     max_minima, max_time
         Give up there, with status `no_pattern`.
+
+    Raises
+    ------
+    InputError
+        As for `simulate`; fractions lie above 0 and up to 1.
 
     Notes
     -----

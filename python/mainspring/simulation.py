@@ -48,16 +48,25 @@ class Trajectory:
         Parameters
         ----------
         t
-            One time or `(m,)` times.
+            One time or `(m,)` times, from 0 to the end of the run (later, too, where it ended at rest).
 
         Returns
         -------
         State
             `q` and `v`, `(parts,)` for one time, `(m, parts)` for several.
+
+        Raises
+        ------
+        ValueError
+            For a time at which the motion is not known.
         """
         times = np.atleast_1d(np.asarray(t, dtype=np.float64))
         q, v = self._run.sample(times)
         return State(q, v) if np.ndim(t) else State(q[0], v[0])
+
+    def kinetic_energy(self, t: Floats) -> Floats:
+        """Return the kinetic energy of everything that moves at the times `t`, `(n,)`."""
+        return self._run.kinetic_energy(np.asarray(t, dtype=np.float64))
 
     def contacts(self, t: float) -> list[dict[str, Any]]:
         """Return what touches at an instant: parts, points, normal and force (docs/guide/json.md)."""
@@ -67,24 +76,30 @@ class Trajectory:
 
 @dataclass(frozen=True)
 class Event:
-    """An `impact`, `close` or `release` of a contact; `impulse` in mass units times velocity units."""
+    """An `impact`, `close` or `release` of a contact; `impulse` in mass units times velocity units.
+
+    `stop` is `lower` or `upper` for the stop of a joint, else None.
+    """
 
     t: float
     kind: str
     parts: tuple[str, ...]
     impulse: float | None
     moving_together: tuple[tuple[str, ...], ...]
+    stop: str | None = None
 
 
 @dataclass(frozen=True)
 class Energy:
     """The energy account of a run; losses positive.
 
-    `residual` is (initial - final - friction - impacts) / max(friction + impacts, kinetic_max).
+    `work` is what drives and constant torques did; `residual` is
+    (initial + work - final - friction - impacts) / max(friction + impacts, kinetic_max).
     """
 
     initial: float
     final: float
+    work: float
     friction: float
     impacts: float
     kinetic_max: float
@@ -95,13 +110,14 @@ _ENDED = {
     "complete": "Ran for {} s.",
     "at_rest": "Came to rest after {} s and stays there.",
     "step_limit": "Met the limit of steps after {} s.",
+    "jammed": "After {} s a drive runs against parts that cannot give way.",
     "stopped": "Was stopped after {} s.",
 }
 
 
 @dataclass(frozen=True)
 class Simulation(Result):
-    """A simulated stretch; `status` is `complete`, `at_rest`, `step_limit` or `stopped`.
+    """A simulated stretch; `status` is `complete`, `at_rest`, `jammed`, `step_limit` or `stopped`.
 
     Attributes
     ----------
@@ -130,9 +146,9 @@ class Simulation(Result):
 
     def _sentences(self) -> Iterable[str]:
         yield _ENDED.get(self.status, self.status).format(f"{self.t:.6g}")
-        blows = sum(e.kind == "impact" for e in self.events)
+        changes = sum(e.kind != "impact" for e in self.events)
         yield (
-            f"{blows} impacts, {len(self.events) - blows} contact changes; "
+            f"{self.stats['impacts']} impacts, {changes} contact changes; "
             f"the energy account closes to {abs(self.energy.residual):.0e}."
         )
 
@@ -148,7 +164,14 @@ def result_of(run: _core.Run) -> Simulation:
     t = run.times()
     q, v = run.sample(t)
     events = (
-        Event(e["t"], e["kind"], tuple(e["parts"]), e["impulse"], tuple(map(tuple, e["moving_together"])))
+        Event(
+            e["t"],
+            e["kind"],
+            tuple(e["parts"]),
+            e["impulse"],
+            tuple(map(tuple, e["moving_together"])),
+            e.get("stop"),
+        )
         for e in o["events"]
     )
     return Simulation(
@@ -184,11 +207,11 @@ def simulate(
     Parameters
     ----------
     until
-        End of the run, in the file's time unit.
+        End of the run, above 0, in the file's time unit.
     contact
         Contact model: `rigid`.
     rtol
-        Relative tolerance of states and of contact times.
+        Relative tolerance of states and of contact times, from 1e-13 to 1e-2.
     positions, velocities
         Initial state by part, in radians or the file's length; the others as the supplement says.
     forces
@@ -201,7 +224,7 @@ def simulate(
     Raises
     ------
     InputError
-        For an unknown part, or a machine that lacks what a run needs.
+        For an unknown part, an option out of its range, or a machine that lacks what a run needs.
 
     Notes
     -----

@@ -21,7 +21,7 @@ impl Default for PredictOptions {
         Self {
             matching: MatchOptions::default(),
             rtol: 1e-8,
-            max_minima: 2000,
+            max_minima: 1000,
             max_time: 1e5,
             max_steps: 2_000_000,
         }

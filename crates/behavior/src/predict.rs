@@ -2,13 +2,14 @@
 //!
 //! Three series of points are followed at once: minima of the kinetic energy in the lowest fraction of its range; any
 //! prominent minima; whole turns of a coordinate. A later series counts only if no point of an earlier one falls into
-//! the instances that support its pattern.
+//! the instances that support its pattern. The kinetic energy is that of what moves freely: the motion of drives is
+//! given. While a table still has points ahead nothing is concluded, for what comes is not in the state.
 
 use crate::hypothesis::{Floors, Hypothesis, Label, Pattern, Point, Series};
 use crate::options::PredictOptions;
 use crate::passages::whole_turns;
 use mainspring_dynamics::{Closed, Minimum, Options, Ranges, Run, Simulation, Status, Track};
-use mainspring_mechanism::{ContactSource, Coordinate, Motion, System};
+use mainspring_mechanism::{ContactSource, Coordinate, Drive, Motion, System};
 use std::f64::consts::TAU;
 
 /// What kind of points a pattern was read from.
@@ -29,6 +30,8 @@ pub enum NoPattern {
     TooManyMinima,
     TooLong,
     StepLimit,
+    /// A drive runs against parts that cannot give way.
+    Jammed,
 }
 
 /// What the machine will do.
@@ -100,8 +103,20 @@ fn look_every(system: &System) -> f64 {
             0.0
         }
     };
-    let longest = system.coordinates.iter().map(own).fold(0.0, f64::max);
+    let drives = system.forces.drives.iter().flatten().map(|drive| match drive {
+        Drive::Speed { speed, .. } if *speed != 0.0 => TAU / speed.abs(),
+        _ => 0.0,
+    });
+    let longest = system.coordinates.iter().map(own).chain(drives).fold(0.0, f64::max);
     if longest > 0.0 { 20.0 * longest } else { f64::INFINITY }
+}
+
+/// The time of a drive's last point; 0 for a constant speed.
+fn last_point(drive: &Drive) -> f64 {
+    match drive {
+        Drive::Speed { .. } => 0.0,
+        Drive::Table(table) => table.points().last().map_or(0.0, |p| p.0),
+    }
 }
 
 struct Follower<'o> {
@@ -120,6 +135,8 @@ struct Follower<'o> {
     /// Positions at the start.
     origins: Vec<f64>,
     least_energy: f64,
+    /// Last point of any table.
+    tables_end: f64,
 }
 
 impl<'o> Follower<'o> {
@@ -142,6 +159,7 @@ impl<'o> Follower<'o> {
             turning: (0..n).filter(turns).collect(),
             origins: run.q.clone(),
             least_energy: run.energy.kinetic_max,
+            tables_end: system.forces.drives.iter().flatten().map(last_point).fold(0.0, f64::max),
         }
     }
 
@@ -150,12 +168,17 @@ impl<'o> Follower<'o> {
         let track = run.track.take()?;
         self.ranges.iter_mut().for_each(|r| r.merge(&track.ranges));
         let outcome = self.take_minima(run).or_else(|| self.take_turns(run, &track));
-        let energy = mainspring_dynamics::kinetic(self.system, &run.v);
+        let energy = mainspring_dynamics::kinetic(self.system, &run.q, &run.v);
         self.least_energy = self.least_energy.min(energy);
         run.track = Some(Track { ranges: Ranges::empty(self.names.len()), ..track });
         // Tested before any fallback: energy that never changes gives nothing to go by.
         let quiet = self.series[0].points.is_empty() && self.series[1].points.is_empty();
-        if outcome.is_none() && quiet && run.t >= 2.0 * run.longest_stretch && self.is_constant(run) {
+        if outcome.is_none()
+            && quiet
+            && run.t >= self.tables_end
+            && run.t >= 2.0 * run.longest_stretch
+            && self.is_constant(run)
+        {
             return Some(Outcome::NoPattern(NoPattern::ConstantKineticEnergy));
         }
         let most = self.options.max_minima;
@@ -219,6 +242,9 @@ impl<'o> Follower<'o> {
     }
 
     fn add(&mut self, basis: Basis, t: f64, q: Vec<f64>, v: Vec<f64>, run: &Simulation) -> Option<Outcome> {
+        if t < self.tables_end {
+            return None;
+        }
         let k = basis as usize;
         let ranges = std::mem::replace(&mut self.ranges[k], Ranges::empty(self.names.len()));
         let floors = self.floors(run);
@@ -256,6 +282,7 @@ impl<'o> Follower<'o> {
             Status::Complete if self.is_constant(run) => Outcome::NoPattern(NoPattern::ConstantKineticEnergy),
             Status::Complete => Outcome::NoPattern(NoPattern::TooLong),
             Status::StepLimit => Outcome::NoPattern(NoPattern::StepLimit),
+            Status::Jammed => Outcome::NoPattern(NoPattern::Jammed),
             Status::Stopped => Outcome::Stopped,
         }
     }

@@ -1,20 +1,32 @@
-//! Coordinates that move together: their equations with closed contacts as constraints, integrated step by step.
+//! Coordinates that move together, by closed contacts, by masses or by drives: their equations with the contacts as
+//! constraints, integrated step by step.
 //!
 //! `M q̈ = f(q, q̇) + Gᵀ λ` with `G q̈ + γ = 0`, so `(G M⁻¹ Gᵀ) λ = −(G M⁻¹ f + γ)`. No coordinate is eliminated, so
 //! dead points need no care; after each step positions and velocities are projected back onto g = 0, G q̇ = 0.
+//! Coordinates held by dry friction take part with q̈ = 0 and what holds them, `M q̈ − f − Gᵀ λ`, is watched; driven
+//! ones have their prescribed acceleration.
 
 use crate::flight::Bounds;
-use crate::linear::{Cholesky, Small};
+use crate::inertia::Inertia;
+use crate::linear::{Small, factorize, solve_factorized};
 use crate::path::Path;
-use crate::runge_kutta::{Equations, Step};
-use crate::settle::{add_forces, inverse_inertia};
+use crate::runge_kutta::{Equations, Polynomial, Step};
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, Placed, Row};
+use std::sync::Arc;
+
+/// Velocities below this fraction of what the greatest speeds make likely are no scale of their own.
+const SLOWEST: f64 = 1e-6;
 
 /// A moving group of coordinates with the contacts it rests on (independent rows).
 #[derive(Clone, Debug, Default)]
 pub struct Component {
+    /// Those that move freely.
     pub coordinates: Vec<usize>,
+    /// Those that dry friction holds.
+    pub stuck: Vec<usize>,
+    /// Indices into `System::coupled`.
+    blocks: Vec<usize>,
     pub contacts: Vec<Candidate>,
     /// Bodies its contacts involve, and for each contact their places in that list.
     bodies: Vec<usize>,
@@ -39,7 +51,14 @@ pub struct Tolerance<'a> {
 }
 
 impl Component {
-    pub fn new(world: &World, coordinates: Vec<usize>, contacts: Vec<Candidate>) -> Self {
+    /// Of the coordinates of a group, driven ones left out, with its contacts.
+    pub fn new(world: &World, group: Vec<usize>, contacts: Vec<Candidate>) -> Self {
+        let (stuck, coordinates): (Vec<usize>, Vec<usize>) = group.into_iter().partition(|&i| world.stuck[i]);
+        let holds = |k: &usize| {
+            let members = &world.system.coupled[*k].coordinates;
+            members.iter().any(|i| coordinates.contains(i) || stuck.contains(i))
+        };
+        let blocks = (0..world.system.coupled.len()).filter(holds).collect();
         let mut bodies = Vec::new();
         let mut place = |body: usize| match bodies.iter().position(|&b| b == body) {
             Some(i) => i,
@@ -55,41 +74,85 @@ impl Component {
                 (place(a), place(b))
             })
             .collect();
-        Self { coordinates, contacts, bodies, sides, step: Step::default() }
+        Self { coordinates, stuck, blocks, contacts, bodies, sides, step: Step::default() }
     }
 
-    /// Evaluates the component's contacts at `q`.
-    pub fn touches<'a>(&self, world: &mut World<'a>, q: &[f64]) -> Small<Touch<'a>> {
+    /// Evaluates each contact at `q` in turn.
+    fn each_touch(&self, world: &mut World, q: &[f64], mut each: impl FnMut(&Touch)) {
         let system = world.system;
         let placed: Small<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
-        self.contacts
-            .iter()
-            .zip(&self.sides)
-            .map(|(c, &(a, b))| world.touch_placed(c, (placed[a], placed[b])))
-            .collect()
+        for (contact, &(a, b)) in self.contacts.iter().zip(&self.sides) {
+            let touch = world.touch_at(contact, q, (&placed[a], &placed[b]));
+            each(&touch);
+        }
     }
 
-    /// Forces of the contacts, and accelerations of all coordinates they touch added to `acceleration`. None if
-    /// the contacts are not independent here.
-    pub fn forces_of(
+    /// Forces of the contacts at time `t` and state `(q, v)`, and the accelerations of all coordinates they touch;
+    /// `each` is told every contact. None if the contacts are not independent here.
+    pub fn forces(
+        &self,
+        world: &mut World,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+        acceleration: &mut [f64],
+        mut each: impl FnMut(&Touch),
+    ) -> Option<Small<f64>> {
+        let (system, freedom) = (world.system, world.free.clone());
+        let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
+        self.accelerate(world, &inertia, t, (q, v), acceleration);
+        let (mut rows, mut lambda) = (Small::<Row>::new(), Small::<f64>::new());
+        self.each_touch(world, q, |touch| {
+            rows.push(touch.row());
+            lambda.push(-(rows[rows.len() - 1].dot(acceleration) + touch.bias(v)));
+            each(touch);
+        });
+        let mut matrix = inertia.inverse(&rows);
+        if !factorize(&mut matrix, rows.len()) {
+            return None;
+        }
+        solve_factorized(&matrix, &mut lambda);
+        inertia.add_forces(&rows, &lambda, acceleration);
+        Some(lambda)
+    }
+
+    /// Accelerations without contacts.
+    fn accelerate(
         &self,
         world: &World,
-        touches: &[Touch],
-        q: &[f64],
-        v: &[f64],
+        inertia: &Inertia,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
         acceleration: &mut [f64],
-    ) -> Option<Small<f64>> {
-        let coordinates = &world.system.coordinates;
-        for &i in &self.coordinates {
-            acceleration[i] = coordinates[i].free_acceleration(q[i], v[i]);
+    ) {
+        world.prescribe(t, acceleration);
+        for &i in self.coordinates.iter().filter(|&&i| world.free.is_alone(i)) {
+            acceleration[i] = world.acceleration_alone(i, q[i], v[i]);
         }
-        let rows: Small<Row> = touches.iter().map(Touch::row).collect();
-        let mut lambda: Small<f64> =
-            touches.iter().zip(&rows).map(|(t, row)| -(row.dot(acceleration) + t.bias(v))).collect();
-        let factor = Cholesky::new(inverse_inertia(world.system, &rows), rows.len())?;
-        factor.solve_in_place(&mut lambda);
-        add_forces(world.system, &rows, &lambda, acceleration);
-        Some(lambda)
+        inertia.accelerate(|i| world.dry_force(i), acceleration);
+    }
+
+    /// What holds coordinate `i` of the component in its given motion, `(M q̈ − f − Gᵀ λ)_i`, for accelerations and
+    /// forces λ that belong to the state.
+    pub fn holding(
+        &self,
+        world: &mut World,
+        i: usize,
+        (q, v): (&[f64], &[f64]),
+        acceleration: &[f64],
+        lambda: &[f64],
+    ) -> f64 {
+        let (system, freedom) = (world.system, world.free.clone());
+        let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
+        inertia.missing(i, (q, v), acceleration) - self.pressed(world, i, q, lambda)
+    }
+
+    /// `(Gᵀ λ)_i`.
+    pub fn pressed(&self, world: &mut World, i: usize, q: &[f64], lambda: &[f64]) -> f64 {
+        let (mut pressed, mut forces) = (0.0, lambda.iter());
+        self.each_touch(world, q, |touch| {
+            pressed += touch.row().at(i) * forces.next().copied().unwrap_or(0.0)
+        });
+        pressed
     }
 
     /// Takes one step of at most `longest` from (t, q, v), trying `h` first and halving until the error fits.
@@ -103,22 +166,25 @@ impl Component {
         tolerance: &Tolerance,
     ) -> Option<Advance> {
         let n = self.coordinates.len();
-        let y: Vec<f64> =
+        let y: Small<f64, 16> =
             self.coordinates.iter().map(|&i| q[i]).chain(self.coordinates.iter().map(|&i| v[i])).collect();
         let mut step = std::mem::take(&mut self.step);
         step.resize(2 * n);
         let mut h = h.min(longest);
+        let mut equations = ComponentEquations::new(self, world, q, v);
+        let start: Small<f64, 8> = step.begin(&mut equations, t, &y)[n..].into();
+        let singular = equations.singular;
         let result = loop {
             if h < tolerance.shortest {
                 break None;
             }
-            let mut equations = ComponentEquations::new(self, world, q, v);
-            let scale = self.scale(&equations.start_acceleration(t, &y), h, tolerance);
+            equations.singular = singular;
+            let scale = self.scale(&start, h, tolerance);
             let error = step.attempt(&mut equations, t, &y, h, &scale);
             let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
                 let dense = step.dense(&mut equations, t, &y, h);
-                let paths = self.paths(&step, &dense, t, h);
+                let paths = self.paths(&dense, t, h);
                 break Some(Advance { h, next: h * factor, paths });
             }
             h *= factor.min(0.5);
@@ -127,51 +193,55 @@ impl Component {
         result
     }
 
-    fn scale(&self, acceleration: &[f64], h: f64, tolerance: &Tolerance) -> Vec<f64> {
+    fn scale(&self, acceleration: &[f64], h: f64, tolerance: &Tolerance) -> Small<f64, 16> {
         let positions = self.coordinates.iter().map(|&i| tolerance.relative * tolerance.positions[i]);
-        let speeds =
-            self.coordinates.iter().zip(acceleration).map(|(&i, a)| {
-                tolerance.relative * tolerance.speeds[i].max(a.abs() * h).max(f64::MIN_POSITIVE)
-            });
+        // A coordinate that only begins to move is told by what moves with it.
+        let relative = tolerance.speeds.iter().zip(tolerance.positions).map(|(v, scale)| v / scale);
+        let least = (SLOWEST * relative.fold(0.0, f64::max)).max(f64::MIN_POSITIVE);
+        let speeds = self.coordinates.iter().zip(acceleration).map(|(&i, a)| {
+            tolerance.relative * tolerance.speeds[i].max(a.abs() * h).max(least * tolerance.positions[i])
+        });
         positions.chain(speeds).collect()
     }
 
-    /// Bounds over the step are those of its stages with a quarter added: the step's error is controlled.
-    fn paths(
-        &self,
-        step: &Step,
-        dense: &[crate::runge_kutta::Polynomial],
-        t: f64,
-        h: f64,
-    ) -> Vec<(usize, Path)> {
+    /// The paths of a step, with bounds over all of it.
+    fn paths(&self, dense: &[Polynomial], t: f64, h: f64) -> Vec<(usize, Path)> {
         let n = self.coordinates.len();
-        let greatest = |unknown: usize| {
-            (0..=crate::tableau::STAGES).map(|s| step.stage_derivative(s, unknown).abs()).fold(0.0, f64::max)
-                * 1.25
+        let path = |k: usize| {
+            let [speed, first, second] = dense[n + k].bounds();
+            // The slope of positions is the velocity only to the tolerance.
+            let bounds = Bounds { speed: 1.02 * speed, acceleration: 1.02 * first / h };
+            Path::Step { t0: t, h, q: dense[k], v: dense[n + k], bounds, jerk: 1.02 * second / (h * h) }
         };
-        (0..n)
-            .map(|k| {
-                let bounds = Bounds { speed: greatest(k), acceleration: greatest(n + k) };
-                (self.coordinates[k], Path::Step { t0: t, h, q: dense[k], v: dense[n + k], bounds })
-            })
-            .collect()
+        (0..n).map(|k| (self.coordinates[k], path(k))).collect()
     }
 
     /// Moves `q` onto g = 0 and `v` onto G q̇ = 0 along M⁻¹ Gᵀ: the nearest state in the metric of inertia.
     pub fn project(&self, world: &mut World, q: &mut [f64], v: &mut [f64]) {
+        let (system, freedom) = (world.system, Arc::clone(&world.free));
+        if self.contacts.is_empty() {
+            return;
+        }
         for _ in 0..3 {
-            let touches = self.touches(world, q);
-            let rows: Small<Row> = touches.iter().map(Touch::row).collect();
-            let Some(factor) = Cholesky::new(inverse_inertia(world.system, &rows), rows.len()) else {
-                return;
-            };
-            let gaps: Vec<f64> = touches.iter().map(|t| -t.state.gap).collect();
-            let rates: Vec<f64> = touches.iter().map(|t| -t.rate(v)).collect();
-            add_forces(world.system, &rows, &factor.solve(&rates), v);
-            if gaps.iter().all(|g| g.abs() <= 0.1 * crate::search::CLOSED * world.system.size) {
+            let (mut rows, mut gaps, mut rates) =
+                (Small::<Row>::new(), Small::<f64>::new(), Small::<f64>::new());
+            self.each_touch(world, q, |touch| {
+                rows.push(touch.row());
+                gaps.push(-touch.state.gap);
+                rates.push(-touch.rate(v));
+            });
+            let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
+            let mut matrix = inertia.inverse(&rows);
+            if !factorize(&mut matrix, rows.len()) {
                 return;
             }
-            add_forces(world.system, &rows, &factor.solve(&gaps), q);
+            solve_factorized(&matrix, &mut rates);
+            inertia.add_forces(&rows, &rates, v);
+            if gaps.iter().all(|g| g.abs() <= 0.1 * crate::search::CLOSED * system.size) {
+                return;
+            }
+            solve_factorized(&matrix, &mut gaps);
+            inertia.add_forces(&rows, &gaps, q);
         }
     }
 }
@@ -179,9 +249,9 @@ impl Component {
 struct ComponentEquations<'c, 'w> {
     component: &'c Component,
     world: &'c mut World<'w>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
+    q: Small<f64, 8>,
+    v: Small<f64, 8>,
+    acceleration: Small<f64, 8>,
     singular: bool,
 }
 
@@ -190,29 +260,27 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
         Self {
             component,
             world,
-            q: q.to_vec(),
-            v: v.to_vec(),
-            acceleration: vec![0.0; q.len()],
+            q: q.into(),
+            v: v.into(),
+            acceleration: smallvec::smallvec![0.0; q.len()],
             singular: false,
         }
-    }
-
-    fn start_acceleration(&mut self, t: f64, y: &[f64]) -> Vec<f64> {
-        let mut dy = vec![0.0; y.len()];
-        self.derivative(t, y, &mut dy);
-        dy.split_off(y.len() / 2)
     }
 }
 
 impl Equations for ComponentEquations<'_, '_> {
-    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let n = self.component.coordinates.len();
+        for (i, drive) in &self.world.drives {
+            let driven = drive.at(t);
+            (self.q[*i], self.v[*i]) = (driven.q, driven.v);
+        }
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
-        let touches = self.component.touches(self.world, &self.q);
-        let (q, v, acceleration) = (&self.q, &self.v, &mut self.acceleration);
-        self.singular |= self.component.forces_of(self.world, &touches, q, v, acceleration).is_none();
+        let state = (self.q.as_slice(), self.v.as_slice());
+        let forces = self.component.forces(self.world, t, state, &mut self.acceleration, |_| {});
+        self.singular |= forces.is_none();
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];
             dy[n + k] = self.acceleration[i];

@@ -14,6 +14,11 @@ pub struct State {
     pub v: f64,
 }
 
+/// Terms of the Taylor series of q beyond the second: with the arguments below `SHORT` the rest is below rounding.
+const TERMS: usize = 14;
+/// Greatest argument of the series, in units of the flight's own time.
+const SHORT: f64 = 0.5;
+
 /// A flight from `start` at time `t0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flight {
@@ -25,6 +30,10 @@ pub struct Flight {
     stiffness: f64,
     /// g₀: acceleration at the start without friction.
     drive: f64,
+    /// Times since the start up to which the series is used.
+    short: f64,
+    /// Coefficients of τ² and higher powers in q.
+    series: [f64; TERMS],
 }
 
 /// How far `|v|` and `|v̇|` can grow over a stretch of time.
@@ -37,20 +46,33 @@ pub struct Bounds {
 impl Flight {
     /// `inertia > 0`, `damping ≥ 0`, `stiffness ≥ 0`; `force` is f.
     pub fn new(t0: f64, start: State, inertia: f64, damping: f64, stiffness: f64, force: f64) -> Self {
-        Self {
-            t0,
-            start,
-            half_decay: 0.5 * damping / inertia,
-            stiffness: stiffness / inertia,
-            drive: (force - stiffness * start.q) / inertia,
-        }
+        let (a2, w) = (damping / inertia, stiffness / inertia);
+        let drive = (force - stiffness * start.q) / inertia;
+        let short = SHORT / a2.max(w.sqrt());
+        let series = series(a2, w, start.v, drive);
+        Self { t0, start, half_decay: 0.5 * a2, stiffness: w, drive, short, series }
     }
 
     /// Position and velocity at time `t ≥ t0`, accurate to a few rounding errors.
     pub fn at(&self, t: f64) -> State {
-        let (s, ds, r) = self.basis(t - self.t0);
+        let tau = t - self.t0;
+        if tau < self.short {
+            return self.soon(tau);
+        }
+        let (s, ds, r) = self.basis(tau);
         let Self { start, drive, .. } = *self;
         State { q: start.q + start.v * s + drive * r, v: start.v * ds + drive * s }
+    }
+
+    /// By the series.
+    fn soon(&self, tau: f64) -> State {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for c in self.series.iter().rev() {
+            slope = slope * tau + sum;
+            sum = sum * tau + c;
+        }
+        let State { q, v } = self.start;
+        State { q: q + tau * (v + tau * sum), v: v + tau * (2.0 * sum + tau * slope) }
     }
 
     /// Acceleration at a state on the flight.
@@ -76,9 +98,6 @@ impl Flight {
     /// S, S' and R at τ.
     fn basis(&self, tau: f64) -> (f64, f64, f64) {
         let (a, w) = (self.half_decay, self.stiffness);
-        if (2.0 * a).max(w.sqrt()) * tau < 0.5 {
-            return self.series(tau);
-        }
         let square = w - a * a;
         let omega = square.abs().sqrt();
         if square > 0.0 && omega * tau > 1e-3 {
@@ -93,30 +112,18 @@ impl Flight {
         }
         overdamped(a, w, omega, tau)
     }
+}
 
-    /// Taylor series: S⁽ⁿ⁺²⁾ = −2a S⁽ⁿ⁺¹⁾ − w S⁽ⁿ⁾, for arguments below ½.
-    fn series(&self, tau: f64) -> (f64, f64, f64) {
-        let (a2, w) = (2.0 * self.half_decay, self.stiffness);
-        let (mut before, mut last) = (0.0, 1.0);
-        let (mut s, mut ds, mut r) = (0.0, 0.0, 0.0);
-        // Without friction every other term is zero: two in a row must be small.
-        let (mut power, mut term_before) = (1.0, f64::INFINITY);
-        for n in 1..24 {
-            // `last` is S⁽ⁿ⁾(0), `power` is τⁿ⁻¹/(n−1)!.
-            let n = f64::from(n);
-            ds += last * power;
-            s += last * power * tau / n;
-            let term = last * power * tau * tau / (n * (n + 1.0));
-            r += term;
-            if term.abs() + f64::abs(term_before) <= 1e-18 * r.abs() {
-                break;
-            }
-            term_before = term;
-            power *= tau / n;
-            (before, last) = (last, -a2 * last - w * before);
-        }
-        (s, ds, r)
+/// Coefficients of τ², τ³, … in q: `(n + 2)(n + 1) c⁽ⁿ⁺²⁾ = −2a (n + 1) c⁽ⁿ⁺¹⁾ − w c⁽ⁿ⁾`, the first with g₀ for −w c⁽⁰⁾.
+fn series(a2: f64, w: f64, velocity: f64, drive: f64) -> [f64; TERMS] {
+    let mut c = [0.0; TERMS];
+    c[0] = 0.5 * (drive - a2 * velocity);
+    c[1] = -(2.0 * a2 * c[0] + w * velocity) / 6.0;
+    for k in 2..TERMS {
+        let n = k as f64;
+        c[k] = -(a2 * (n + 1.0) * c[k - 1] + w * c[k - 2]) / ((n + 2.0) * (n + 1.0));
     }
+    c
 }
 
 /// Two real decay rates `a ∓ ω`; the slower one without cancellation as w/(a + ω).

@@ -3,12 +3,17 @@
 //! Gelsey 1995, Appendix A (the *global* model), with contacts as projections onto `G q̇ ≥ 0` in place of the
 //! elimination of coordinates.
 
+mod chained;
 mod chatter;
+mod clearance;
 mod complementarity;
+mod compliant;
 mod component;
+mod descent;
 mod energy;
 mod events;
 mod flight;
+mod inertia;
 mod linear;
 mod march;
 mod minima;
@@ -16,14 +21,18 @@ mod pace;
 mod path;
 mod place;
 mod ranges;
+mod root;
 mod runge_kutta;
 mod search;
 mod settle;
+mod sight;
 mod simulation;
 mod tableau;
 mod watch;
+mod work;
 mod world;
 
+pub use compliant::Compliant;
 pub use energy::{Energy, kinetic, potential};
 pub use events::{Event, EventKind};
 pub use flight::{Bounds, Flight, State};

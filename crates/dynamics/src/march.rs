@@ -1,183 +1,188 @@
 //! Along one contact in steps that cannot pass a zero of its gap.
 //!
-//! With gap g, rate ġ and |g̈| ≤ B over the stretch, no zero lies before the positive root Δ of
-//! `g + ġ Δ − B Δ²/2 = 0`. Near a zero the steps converge like Newton's; far away they are as long as the bound allows.
+//! A look gives a time before which the gap has no zero (`clearance`), nor can the features have travelled the
+//! distance between them. Near a zero the looks converge; far away they are as far apart as the bounds allow.
 
-use crate::flight::State;
-use crate::pace::Pace;
-use crate::search::{CLOSED, MOST_STEPS, Stretch};
+use crate::clearance::Gap;
+use crate::pace::{GapPace, Pace};
+use crate::search::{BAND, CLOSED, MOST_STEPS};
+use crate::sight::Sight;
 use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, Placed};
+use mainspring_mechanism::{Approach, Candidate, Feature, Relative, approach};
 
 /// Decides whether a contact that comes to zero is one: on its features, and standing for its place.
 pub type Real<'r> = &'r mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool;
 
-/// Positions and velocities at the time looked at; only those that move the two bodies are kept up to date.
-pub struct Now<'n> {
-    pub q: &'n mut [f64],
-    pub v: &'n mut [f64],
-}
-
-/// A walk along one contact of an interaction.
-pub struct March<'s, 'p, 'a> {
-    pub stretch: &'s Stretch<'p>,
-    pub t: f64,
-    pub end: f64,
-    pub pace: Pace,
-    /// Bound of how far features move relative to the list of candidates.
-    pub reach: f64,
+/// The march along one contact of an interaction, from look to look.
+pub struct March<'a> {
+    pub candidate: Candidate,
+    features: (&'a Feature, &'a Feature),
+    pace: Pace,
+    /// Bounds for the gap: of the whole stretch against an edge, of the next step between centres.
+    bounds: Option<GapPace>,
     /// Set for a contact that was closed to rounding at the start: gaps count from here, and it closes only after it
     /// was seen open.
-    pub floor: Option<f64>,
-    /// The bodies at the start; those that rest stay so.
-    pub placed: (Placed<'a>, Placed<'a>),
-    pub moving: (bool, bool),
+    floor: Option<f64>,
+    waiting: bool,
+    /// The contact does not close before this time.
+    pub clear: f64,
+    looks: usize,
 }
 
-impl<'a> March<'_, '_, 'a> {
-    fn touch(&self, world: &mut World<'a>, c: &Candidate, now: &mut Now) -> (Touch<'a>, f64) {
-        for arm in &world.arms[c.id.interaction as usize] {
-            let path = &self.stretch.paths[arm.coordinate];
-            if !path.is_rest() {
-                let State { q, v } = path.at(self.t);
-                (now.q[arm.coordinate], now.v[arm.coordinate]) = (q, v);
-            }
-        }
-        let (a, b) = world.bodies(c);
-        let bodies = &world.system.bodies;
-        let place =
-            |moving, body: usize, still| if moving { Placed::new(&bodies[body], now.q) } else { still };
-        let placed = (place(self.moving.0, a, self.placed.0), place(self.moving.1, b, self.placed.1));
-        let touch = world.touch_placed(c, placed);
-        let rate = touch.rate(now.v);
-        (touch, rate)
+impl<'a> March<'a> {
+    /// From time `t`, with bounds of motion until the end of the stretch.
+    pub fn new(world: &World<'a>, candidate: &Candidate, pace: Pace, floor: Option<f64>, t: f64) -> Self {
+        let (features, waiting) = (world.features(candidate), floor.is_some());
+        Self { candidate: *candidate, features, pace, bounds: None, floor, waiting, clear: t, looks: 0 }
     }
 
-    fn gap(&self, touch: &Touch) -> f64 {
-        touch.state.gap - self.floor.unwrap_or(0.0)
+    /// Looks at the contact at the time in sight and moves `clear` on. Returns the time at which the contact closes,
+    /// if that is found.
+    pub fn look(
+        &mut self,
+        world: &mut World<'a>,
+        sight: &mut Sight<'_, '_, 'a>,
+        relative: &Relative,
+        end: f64,
+        real: Real,
+    ) -> Option<f64> {
+        let t = sight.t;
+        self.looks += 1;
+        if self.looks > MOST_STEPS {
+            // Bound met: hand the place to the resolver rather than step over it.
+            return Some(t);
+        }
+        let seen = self.approach(world, relative);
+        let gap = seen.gap - self.floor.unwrap_or(0.0);
+        // Late in a run the clock's own grain moves the gap by more than `CLOSED`.
+        let closed = CLOSED * world.system.size + 8.0 * f64::EPSILON * t.abs() * seen.rate.abs();
+        self.waiting &= gap.abs() <= closed;
+        let touching = gap.abs() <= closed && seen.rate < 0.0 && !self.waiting;
+        if touching && self.is_real(world, sight, real) {
+            return Some(t);
+        }
+        let (a, b) = self.features;
+        let radius = a.shape.radius().max(b.shape.radius());
+        let step = self.safe_step(&seen, gap, closed, (end - t, radius), world.system.size);
+        if gap.abs() <= closed && !touching && (seen.rate < 0.0 || step < 1e-3 * (end - t)) {
+            // Closed but not closing: it may open by less than can be told apart and close again.
+            let (opens, at) = self.wait_for_gap(world, sight, end);
+            self.clear = at;
+            sight.move_to(world, t);
+            return (!opens && at < end).then_some(at);
+        }
+        self.clear = t + step.max(2.0 * f64::EPSILON * t.abs());
+        None
     }
 
-    /// The time at which the contact closes, if it does before the end.
-    pub fn run(&mut self, world: &mut World<'a>, c: &Candidate, real: Real, now: &mut Now) -> Option<f64> {
-        let size = world.system.size;
-        let (a, b) = world.features(c);
-        let away = c.distance.max(0.0) + self.reach + 2.0 * a.radius.min(b.radius);
-        let mut waiting = self.floor.is_some();
-        let mut first = Some(world.touch_placed(c, self.placed));
-        for _ in 0..MOST_STEPS {
-            if self.t >= self.end {
-                return None;
-            }
-            let (touch, rate) = match first.take() {
-                Some(touch) => (touch, touch.rate(now.v)),
-                None => self.touch(world, c, now),
-            };
-            let gap = self.gap(&touch);
-            // Late in a run the clock's own grain moves the gap by more than `CLOSED`.
-            let closed = CLOSED * size + 8.0 * f64::EPSILON * self.t.abs() * rate.abs();
-            waiting &= gap.abs() <= closed;
-            let touching = gap.abs() <= closed && rate < 0.0 && !waiting;
-            if touching && real(world, &touch, now.q, now.v) {
-                return Some(self.t);
-            }
-
-            let step = self.safe_step(&touch, gap, rate, closed, away, c);
-            if gap.abs() <= closed && !touching && (rate < 0.0 || step < 1e-3 * (self.end - self.t)) {
-                // Closed but not closing: it may open by less than can be told apart and close again.
-                if !self.wait_for_gap(world, c, now) {
-                    return (self.t < self.end).then_some(self.t);
-                }
-                continue;
-            }
-            self.t += step.max(2.0 * f64::EPSILON * self.t.abs());
-        }
-        // Bound met: hand the place to the resolver rather than step over it.
-        Some(self.t.min(self.end))
+    fn approach(&self, world: &mut World, relative: &Relative) -> Approach {
+        world.evaluations += 1;
+        approach(self.candidate.kind, self.features.0, self.features.1, relative)
     }
 
-    /// A step that passes no zero, except out of the band of closed gaps.
-    fn safe_step(&self, touch: &Touch, gap: f64, rate: f64, closed: f64, away: f64, c: &Candidate) -> f64 {
-        let bound = self.pace.curvature(c.kind, away, touch);
-        if gap.abs() <= closed && rate >= 0.0 {
-            return safe_step(0.0, rate, bound);
-        }
+    fn is_real(&self, world: &mut World, sight: &Sight, real: Real) -> bool {
+        let touch = world.touch(&self.candidate, (&sight.placed.0, &sight.placed.1));
+        real(world, &touch, &sight.q, &sight.v)
+    }
+
+    /// A step of at most `left` that passes no zero, except out of the band of closed gaps.
+    fn safe_step(
+        &mut self,
+        seen: &Approach,
+        gap: f64,
+        closed: f64,
+        (left, radius): (f64, f64),
+        size: f64,
+    ) -> f64 {
+        let (bounds, left) = self.bounds(seen, left, radius);
         let inside = gap.abs() <= closed;
+        let Approach { rate, acceleration, .. } = *seen;
+        if inside && rate >= 0.0 {
+            return Gap { gap: 0.0, rate, acceleration }.clearance(&bounds, left);
+        }
         let side = if gap > 0.0 && !inside { 1.0 } else { -1.0 };
         // Past a zero that is no contact, the step must clear the band of closed gaps.
         let clear = gap.abs() + if inside { 3.0 * closed } else { 0.0 };
-        let centers = touch.state.distance_of_centers();
-        let limit = if centers.is_finite() { 0.5 * centers / self.pace.total() } else { f64::INFINITY };
-        safe_step(clear, side * rate, bound).min(limit).max(0.99 * gap.abs() / self.pace.lipschitz(away))
+        Gap { gap: clear, rate: side * rate, acceleration: side * acceleration }
+            .clearance(&bounds, left)
+            .max(0.99 * gap.abs() / bounds.speed.max(f64::MIN_POSITIVE))
+            .max((seen.apart - 2.0 * BAND * size) / self.pace.total().max(f64::MIN_POSITIVE))
+    }
+
+    /// Bounds for the gap, and the time for which they hold; `radius` is that of the round feature against an edge.
+    fn bounds(&mut self, seen: &Approach, left: f64, radius: f64) -> (GapPace, f64) {
+        let (kind, speed) = (self.candidate.kind, self.pace.total());
+        if seen.centers.is_finite() {
+            return (self.pace.of_gap(kind, 0.0, 0.5 * seen.centers), left.min(0.5 * seen.centers / speed));
+        }
+        // At the first look the whole stretch lies ahead.
+        let whole = || self.pace.of_gap(kind, seen.apart + radius + speed * left, 0.0);
+        (*self.bounds.get_or_insert_with(whole), left)
     }
 
     /// After a release the gap, its rate and its acceleration are all near zero: goes on to the first sample with
-    /// a positive gap. False if the gap closes again first (then `t` says when) or never opens before the end.
-    fn wait_for_gap(&mut self, world: &mut World<'a>, c: &Candidate, now: &mut Now) -> bool {
-        let (size, start) = (world.system.size, self.t);
+    /// a positive gap. False if the gap closes again first (then at the time told) or never opens before the end.
+    fn wait_for_gap(&self, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>, end: f64) -> (bool, f64) {
+        let (size, start) = (world.system.size, sight.t);
         let open = 8.0 * CLOSED * size;
         // Samples from the end backwards: in the usual case all are open and the first interval is short.
         let mut first_open = None;
-        let mut dt = self.end - start;
+        let mut dt = end - start;
         for _ in 0..60 {
-            self.t = start + dt;
-            let (touch, _) = self.touch(world, c, now);
-            let gap = self.gap(&touch);
+            let t = start + dt;
+            let gap = self.gap_at(t, world, sight);
             if gap.abs() <= open {
                 break;
             }
             // Behind an edge's line but past its end is free as well.
-            first_open = (gap > 0.0 || touch.margin(size) <= 0.0).then_some(self.t);
+            first_open = (gap > 0.0 || self.margin(world, sight) < -BAND * size).then_some(t);
             dt *= 0.25;
         }
         if let Some(t) = first_open {
-            self.t = t;
-            return true;
+            return (true, t);
         }
-        let closes = dt < self.end - start;
-        self.t = if closes { self.closes_between(world, c, (start, dt), now) } else { self.end };
-        false
+        let closes = dt < end - start;
+        (false, if closes { self.closes_between(world, sight, start, dt) } else { end })
     }
 
     /// The time at which the gap falls to zero for good after a release at `start`: `dt` later it is closed to
     /// rounding, four times that later negative.
     fn closes_between(
-        &mut self,
+        &self,
         world: &mut World<'a>,
-        c: &Candidate,
-        (start, dt): (f64, f64),
-        now: &mut Now,
+        sight: &mut Sight<'_, '_, 'a>,
+        start: f64,
+        dt: f64,
     ) -> f64 {
         let (mut above, mut below) = (start + dt, start + 4.0 * dt);
         // The gap may have opened and closed again by less than can be told apart: look for a time when it was open.
         for _ in 0..40 {
-            if self.is_open_at(above, world, c, now) {
+            if self.gap_at(above, world, sight) > 0.0 {
                 break;
             }
             above = start + 0.5 * (above - start);
         }
         for _ in 0..60 {
             let middle = 0.5 * (above + below);
-            if self.is_open_at(middle, world, c, now) {
+            if self.gap_at(middle, world, sight) > 0.0 {
                 above = middle
             } else {
                 below = middle
             }
-            if below - above <= 1e-12 * (below - self.stretch.from) {
+            if below - above <= 1e-12 * (below - sight.stretch.from) {
                 break;
             }
         }
         below
     }
 
-    fn is_open_at(&mut self, t: f64, world: &mut World<'a>, c: &Candidate, now: &mut Now) -> bool {
-        self.t = t;
-        let (touch, _) = self.touch(world, c, now);
-        self.gap(&touch) > 0.0
+    fn gap_at(&self, t: f64, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>) -> f64 {
+        sight.move_to(world, t);
+        self.approach(world, &sight.relative()).gap - self.floor.unwrap_or(0.0)
     }
-}
 
-/// Positive root of `g + s Δ − B Δ²/2`: no zero of the gap lies before it. `g ≥ 0`; infinite when nothing bends.
-fn safe_step(g: f64, s: f64, bound: f64) -> f64 {
-    let root = (s * s + 2.0 * bound * g).sqrt();
-    if s >= 0.0 { if bound > 0.0 { (s + root) / bound } else { f64::INFINITY } } else { 2.0 * g / (root - s) }
+    fn margin(&self, world: &mut World, sight: &Sight) -> f64 {
+        let size = world.system.size;
+        world.touch(&self.candidate, (&sight.placed.0, &sight.placed.1)).margin(size)
+    }
 }

@@ -1,12 +1,18 @@
 //! Minima of the kinetic energy, on the dense motion and at impacts (Gelsey 1995, Sec. 3.1, corrected: never at
 //! step ends, since one closed-form step may span seconds).
 //!
-//! Zeros of `P = Σ I q̇ q̈` are isolated by bisection: a stretch whose middle has `|P|` above the bound of `|Ṗ|` times
+//! The kinetic energy here is that of what moves freely: the own inertia of driven coordinates is left out, whose motion is
+//! prescribed.
+//!
+//! Zeros of `P = Σ I q̇ q̈ + Σ m ṗ·p̈ + I ω ω̇` (masses on chains in the second sum) are isolated by bisection: a stretch whose middle has `|P|` above the bound of `|Ṗ|` times
 //! half its length has none.
 
+use crate::chained::{ChainedMass, chained_masses};
 use crate::flight::Bounds;
+use crate::linear::Small;
 use crate::path::Path;
-use mainspring_mechanism::System;
+use crate::root::narrow;
+use mainspring_mechanism::{Coordinate, System};
 
 /// A local minimum of the kinetic energy.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +49,7 @@ pub struct MinimumFinder {
 struct Motion<'a> {
     system: &'a System,
     paths: &'a [Path],
+    masses: Small<ChainedMass<'a>, 2>,
 }
 
 /// Energy and power (rate of kinetic energy) at one time.
@@ -53,14 +60,16 @@ struct Sample {
     power: f64,
 }
 
+type Samples = Small<Sample, 16>;
+
 impl MinimumFinder {
     /// Follows one stretch without events inside.
     pub fn stretch(&mut self, system: &System, paths: &[Path], from: f64, to: f64) {
         if to <= from {
             return;
         }
-        let motion = Motion { system, paths };
-        let mut samples = vec![motion.sample(from)];
+        let motion = Motion { system, paths, masses: chained_masses(system) };
+        let mut samples: Samples = smallvec::smallvec![motion.sample(from)];
         motion.subdivide(from, to, 0, &mut samples);
         samples.push(motion.sample(to));
         for pair in samples.windows(2) {
@@ -107,7 +116,7 @@ impl MinimumFinder {
     fn record(&mut self, motion: &Motion, t: f64, at_impact: bool) {
         let state: Vec<_> = motion.paths.iter().map(|p| p.at(t)).collect();
         let (q, v) = (state.iter().map(|s| s.q).collect(), state.iter().map(|s| s.v).collect::<Vec<f64>>());
-        let energy = crate::energy::kinetic(motion.system, &v);
+        let energy = motion.sample(t).energy;
         self.found.push(Minimum { t, energy, top: self.top, q, v, peak_before: self.peak, at_impact });
         self.peak = energy;
     }
@@ -121,25 +130,37 @@ impl MinimumFinder {
 impl Motion<'_> {
     fn sample(&self, t: f64) -> Sample {
         let (mut energy, mut power) = (0.0, 0.0);
-        for (c, path) in self.system.coordinates.iter().zip(self.paths) {
+        for (c, path) in self.own().filter(|(_, path)| !path.is_rest()) {
             let (state, acceleration) = path.with_acceleration(t);
             energy += 0.5 * c.inertia * state.v * state.v;
             power += c.inertia * state.v * acceleration;
         }
+        for mass in &self.masses {
+            let (e, p) = mass.energy_and_power(self.system, self.paths, t);
+            energy += e;
+            power += p;
+        }
         Sample { t, energy, power }
     }
 
-    /// A bound of |Ṗ| = |Σ I (q̈² + q̇ q⃛)| from `t` for a time `dt`.
+    /// Coordinates with inertias of their own that are not driven.
+    fn own(&self) -> impl Iterator<Item = (&Coordinate, &Path)> {
+        let own = self.system.coordinates.iter().zip(self.paths);
+        own.filter(|(_, path)| !matches!(path, Path::Driven(_)))
+    }
+
+    /// A bound of |Ṗ| = |Σ I (q̈² + q̇ q⃛)| from `t` for a time `dt`, with the same of masses on chains.
     fn bend(&self, t: f64, dt: f64) -> f64 {
-        let one = |(c, path): (&mainspring_mechanism::Coordinate, &Path)| {
+        let one = |(c, path): (&Coordinate, &Path)| {
             let bounds: Bounds = path.bounds(path.at(t), dt);
             c.inertia * (bounds.acceleration * bounds.acceleration + bounds.speed * path.jerk(bounds))
         };
-        self.system.coordinates.iter().zip(self.paths).map(one).sum()
+        let chained = self.masses.iter().map(|mass| mass.bend(self.paths, t, dt));
+        self.own().map(one).sum::<f64>() + chained.sum::<f64>()
     }
 
     /// Adds samples inside (from, to) until the power changes sign at most once between neighbours.
-    fn subdivide(&self, from: f64, to: f64, depth: u32, samples: &mut Vec<Sample>) {
+    fn subdivide(&self, from: f64, to: f64, depth: u32, samples: &mut Samples) {
         let middle = self.sample(0.5 * (from + to));
         let half = 0.5 * (to - from);
         let certain = middle.power.abs() > self.bend(from, to - from) * half;
@@ -162,32 +183,16 @@ impl Motion<'_> {
     /// Whether the power changes too little over the stretch for a second sign change to matter: its rate keeps
     /// one sign at five places.
     fn is_monotone(&self, from: f64, to: f64) -> bool {
-        let powers: Vec<f64> =
+        let powers: Small<f64, 8> =
             (0..=4).map(|k| self.sample(from + (to - from) * f64::from(k) / 4.0).power).collect();
         // Where powers cancel (a frictionless contact) only rounding is left, and it has no shape.
         let noise = 1e-13 * (2.0 * self.sample(from).energy * self.bend(from, to - from)).sqrt();
         powers.windows(2).all(|p| p[1] >= p[0] - noise) || powers.windows(2).all(|p| p[1] <= p[0] + noise)
     }
 
-    /// The zero of the power between a sample where it is negative and one where it is positive.
-    fn zero(&self, negative: Sample, positive: Sample) -> f64 {
-        let (mut a, mut b) = (negative, positive);
-        for _ in 0..200 {
-            let linear = a.t - a.power * (b.t - a.t) / (b.power - a.power);
-            let middle = 0.5 * (a.t + b.t);
-            // Secant steps, with a bisection whenever they would shrink the bracket slowly.
-            for t in [linear, middle] {
-                let s = self.sample(t);
-                if s.power < 0.0 {
-                    a = s;
-                } else {
-                    b = s;
-                }
-            }
-            if (b.t - a.t).abs() <= 4.0 * f64::EPSILON * (1.0 + b.t.abs()) {
-                break;
-            }
-        }
-        if a.energy <= b.energy { a.t } else { b.t }
+    /// The zero of the power between two samples of unlike signs.
+    fn zero(&self, from: Sample, to: Sample) -> f64 {
+        let (a, b) = narrow(|t| self.sample(t).power, (from.t, from.power), (to.t, to.power));
+        if a.1.abs() <= b.1.abs() { a.0 } else { b.0 }
     }
 }

@@ -1,7 +1,9 @@
-//! The motion of one coordinate between two events: at rest, in closed-form flight, or along an integrated step.
+//! The motion of one coordinate between two events: at rest, in closed-form flight, along an integrated step, or
+//! prescribed.
 
 use crate::flight::{Bounds, Flight, State};
 use crate::runge_kutta::Polynomial;
+use mainspring_mechanism::{Drive, DrivePiece};
 
 /// A coordinate's motion as a function of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +19,45 @@ pub enum Path {
         q: Polynomial,
         v: Polynomial,
         bounds: Bounds,
+        /// A bound of the rate of change of acceleration.
+        jerk: f64,
     },
+    /// A prescribed motion.
+    Driven(DrivenPath),
+}
+
+/// `q = c₀ + τ (c₁ + τ (c₂ + τ c₃))` with `τ = t − t0`, and bounds that hold over all of its piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivenPath {
+    t0: f64,
+    c: [f64; 4],
+    bounds: Bounds,
+}
+
+impl DrivenPath {
+    /// The motion of a drive at time `t`, with the time up to which it holds.
+    pub fn new(drive: &Drive, t: f64) -> (Self, f64) {
+        let DrivePiece { from, until, coefficients } = drive.piece(t);
+        let (speed, acceleration) = drive.bounds(from, until);
+        (Self { t0: from, c: coefficients, bounds: Bounds { speed, acceleration } }, until)
+    }
+
+    /// Does it stand still?
+    pub fn is_rest(&self) -> bool {
+        self.c[1..].iter().all(|c| *c == 0.0)
+    }
+
+    /// Position and velocity at time `t`.
+    pub fn at(&self, t: f64) -> State {
+        self.state(t).0
+    }
+
+    /// State and acceleration at time `t`.
+    fn state(&self, t: f64) -> (State, f64) {
+        let ([c0, c1, c2, c3], tau) = (self.c, t - self.t0);
+        let q = c0 + tau * (c1 + tau * (c2 + tau * c3));
+        (State { q, v: c1 + tau * (2.0 * c2 + 3.0 * tau * c3) }, 2.0 * c2 + 6.0 * tau * c3)
+    }
 }
 
 impl Path {
@@ -30,6 +70,7 @@ impl Path {
                 let x = (t - t0) / h;
                 State { q: q.at(x), v: v.at(x) }
             }
+            Path::Driven(driven) => driven.state(t).0,
         }
     }
 
@@ -38,7 +79,7 @@ impl Path {
         match self {
             Path::Rest { .. } => Bounds::default(),
             Path::Flight(flight) => flight.bounds(state, dt),
-            Path::Step { bounds, .. } => {
+            Path::Step { bounds, .. } | Path::Driven(DrivenPath { bounds, .. }) => {
                 let linear = state.v.abs() + bounds.acceleration * dt;
                 Bounds { speed: bounds.speed.min(linear), ..*bounds }
             }
@@ -105,15 +146,17 @@ impl Path {
                 let x = (t - t0) / h;
                 (State { q: q.at(x), v: v.at(x) }, v.slope(x) / h)
             }
+            Path::Driven(driven) => driven.state(t),
         }
     }
 
-    /// A bound of the rate of change of acceleration under `bounds`; an estimate along integrated steps.
+    /// A bound of the rate of change of acceleration under `bounds`.
     pub fn jerk(&self, bounds: Bounds) -> f64 {
         match self {
             Path::Rest { .. } => 0.0,
             Path::Flight(flight) => flight.jerk(bounds),
-            Path::Step { h, .. } => 2.0 * bounds.acceleration / h,
+            Path::Step { jerk, .. } => *jerk,
+            Path::Driven(driven) => 6.0 * driven.c[3].abs(),
         }
     }
 }

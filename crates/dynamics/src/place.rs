@@ -4,19 +4,20 @@
 //! either of P's edges. Of those whose normals the corners allow the largest gap counts; among equal gaps the
 //! largest rate. At different places, and at concave corners, contacts act together.
 
-use crate::search::{BAND, TOGETHER};
+use crate::linear::Small;
+use crate::search::{BAND, OVERLAP, TOGETHER};
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, ContactId, Feature, FeatureShape, GapKind, Row};
 
 /// Of touching contacts, those that stand for their place. `kept` were closed before and are preferred among equals.
-pub fn representatives<'a>(
-    world: &mut World<'a>,
+pub fn representatives<'p>(
+    world: &mut World,
     q: &[f64],
     v: &[f64],
-    near: &[Touch<'a>],
+    near: &[Touch<'p>],
     kept: &[ContactId],
     tolerance: &dyn Fn(&Row) -> f64,
-) -> Vec<Touch<'a>> {
+) -> Vec<Touch<'p>> {
     let mut chosen = Vec::new();
     for touch in near {
         if is_eligible(world, touch, q, v) && stands(world, touch, q, v, kept, tolerance) {
@@ -45,8 +46,9 @@ fn is_leaving(world: &mut World, touch: &Touch, q: &[f64], v: &[f64]) -> bool {
         return false;
     }
     let dt = 1e-6 * size / speed;
-    let ahead: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + dt * v).collect();
-    let later = world.touch(&touch.candidate, &ahead);
+    let ahead: Small<f64, 8> = q.iter().zip(v).map(|(q, v)| q + dt * v).collect();
+    let (a, b) = world.place(&touch.candidate, &ahead);
+    let later = world.touch(&touch.candidate, (&a, &b));
     later.margin(size) < touch.margin(size) - 1e-13 * size
 }
 
@@ -63,8 +65,8 @@ fn stands(
     let rate = touch.rate(v);
     let still = tolerance(&touch.row());
     for other in alternatives(world, touch) {
-        let other = world.touch(&other, q);
-        if !is_eligible(world, &other, q, v) || other.state.gap < -1e3 * TOGETHER * size {
+        let other = world.touch(&other, touch.placed);
+        if !is_eligible(world, &other, q, v) || other.state.gap < -OVERLAP * size {
             continue;
         }
         if other.state.gap > TOGETHER * size {

@@ -27,10 +27,16 @@ impl Step {
         self.scratch.resize(n, 0.0);
     }
 
-    /// Tries a step; returns the error relative to `scale` (accept when ≤ 1).
-    pub fn attempt(&mut self, f: &mut impl Equations, t: f64, y: &[f64], h: f64, scale: &[f64]) -> f64 {
+    /// Evaluates the derivative at the start, for any number of attempts from there.
+    pub fn begin(&mut self, f: &mut impl Equations, t: f64, y: &[f64]) -> &[f64] {
         let n = self.n;
         f.derivative(t, y, &mut self.k[..n]);
+        &self.k[..n]
+    }
+
+    /// Tries a step after `begin`; returns the error relative to `scale` (accept when ≤ 1).
+    pub fn attempt(&mut self, f: &mut impl Equations, t: f64, y: &[f64], h: f64, scale: &[f64]) -> f64 {
+        let n = self.n;
         for stage in 1..=STAGES {
             self.stage(f, stage, t, y, h);
         }
@@ -50,17 +56,17 @@ impl Step {
 
     fn stage(&mut self, f: &mut impl Equations, stage: usize, t: f64, y: &[f64], h: f64) {
         let n = self.n;
-        for (i, start) in y.iter().enumerate() {
-            let sum: f64 = A[stage].iter().map(|&(s, a)| a * self.k[s * n + i]).sum();
-            self.scratch[i] = start + h * sum;
+        self.scratch.fill(0.0);
+        for &(s, a) in A[stage] {
+            for (sum, k) in self.scratch.iter_mut().zip(&self.k[s * n..(s + 1) * n]) {
+                *sum += a * k;
+            }
+        }
+        for (sum, start) in self.scratch.iter_mut().zip(y) {
+            *sum = start + h * *sum;
         }
         let row = stage * n..(stage + 1) * n;
         f.derivative(t + C[stage] * h, &self.scratch, &mut self.k[row]);
-    }
-
-    /// Derivative of unknown `i` at a stage of the step (12 is the end).
-    pub fn stage_derivative(&self, stage: usize, i: usize) -> f64 {
-        self.k[stage * self.n + i]
     }
 
     /// Interpolation polynomials of the accepted step, order 7: one a unknown.
@@ -93,12 +99,59 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
+    /// From its first coefficients F₀ … F₃.
+    pub fn short(start: f64, first: [f64; 4]) -> Self {
+        let mut coefficients = [0.0; POWERS];
+        coefficients[..4].copy_from_slice(&first);
+        Self { start, coefficients }
+    }
+
+    /// dy/dx of a polynomial made by `short`.
+    pub fn short_slope(&self) -> Self {
+        let p = self.powers();
+        let [a, b, c, d] = [p[1], 2.0 * p[2], 3.0 * p[3], 4.0 * p[4]];
+        Self::short(a, [b + c + d, -(c + d), -d, 0.0])
+    }
+
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { start: factor * self.start, coefficients: self.coefficients.map(|c| factor * c) }
+    }
+
     pub fn at(&self, x: f64) -> f64 {
         let mut y = 0.0;
         for (i, f) in self.coefficients.iter().rev().enumerate() {
             y = (y + f) * if i % 2 == 0 { x } else { 1.0 - x };
         }
         self.start + y
+    }
+
+    /// Coefficients of powers of x, from 0 to 7.
+    fn powers(&self) -> [f64; POWERS + 1] {
+        let mut p = [0.0; POWERS + 1];
+        for (i, f) in self.coefficients.iter().rev().enumerate() {
+            p[0] += f;
+            // Times x or times 1 − x, from the highest power down.
+            for k in (1..p.len()).rev() {
+                p[k] = if i % 2 == 0 { p[k - 1] } else { p[k] - p[k - 1] };
+            }
+            p[0] *= if i % 2 == 0 { 0.0 } else { 1.0 };
+        }
+        p[0] += self.start;
+        p
+    }
+
+    /// Bounds of |y|, |dy/dx| and |d²y/dx²| over the step: a polynomial lies within its Bernstein coefficients.
+    pub fn bounds(&self) -> [f64; 3] {
+        let mut p = self.powers();
+        let mut bounds = [0.0; 3];
+        for (order, bound) in bounds.iter_mut().enumerate() {
+            let degree = POWERS - order;
+            *bound = bernstein_bound(&p[..=degree]);
+            for k in 1..=degree {
+                p[k - 1] = k as f64 * p[k];
+            }
+        }
+        bounds
     }
 
     /// dy/dx.
@@ -111,6 +164,25 @@ impl Polynomial {
         }
         dy
     }
+}
+
+/// Greatest magnitude of the Bernstein coefficients `bᵢ = Σ_{k ≤ i} C(i, k) / C(n, k) pₖ` of a polynomial.
+fn bernstein_bound(p: &[f64]) -> f64 {
+    let n = p.len() - 1;
+    let mut b = [0.0; POWERS + 1];
+    b[..=n].copy_from_slice(p);
+    let mut binomial = 1.0;
+    for (k, b) in b.iter_mut().enumerate().take(n + 1).skip(1) {
+        binomial *= (n + 1 - k) as f64 / k as f64;
+        *b /= binomial;
+    }
+    // Sums with binomial weights, as in Pascal's triangle.
+    for round in 1..=n {
+        for i in (round..=n).rev() {
+            b[i] += b[i - 1];
+        }
+    }
+    b[..=n].iter().fold(0.0, |most, x| x.abs().max(most))
 }
 
 #[cfg(test)]
@@ -128,6 +200,7 @@ mod tests {
     fn error(h: f64) -> (f64, f64) {
         let (y, mut step) = ([0.0, 1.0], Step::default());
         step.resize(2);
+        step.begin(&mut Oscillator, 0.0, &y);
         step.attempt(&mut Oscillator, 0.0, &y, h, &[1.0, 1.0]);
         let end = (step.end[0] - h.sin()).abs();
         let dense = step.dense(&mut Oscillator, 0.0, &y, h);
@@ -140,5 +213,28 @@ mod tests {
         let ((end, inside), (half_end, half_inside)) = (error(0.8), error(0.4));
         assert!((end / half_end).log2() > 8.5, "local order 9, was {}", (end / half_end).log2());
         assert!((inside / half_inside).log2() > 7.0, "was {}", (inside / half_inside).log2());
+    }
+
+    /// Bounds hold at every place of the step and are near the greatest values.
+    #[test]
+    fn bounds_hold_over_the_step() {
+        for h in [0.1, 0.8, 2.0] {
+            let (y, mut step) = ([0.3, 1.0], Step::default());
+            step.resize(2);
+            step.begin(&mut Oscillator, 0.0, &y);
+            step.attempt(&mut Oscillator, 0.0, &y, h, &[1.0, 1.0]);
+            for p in step.dense(&mut Oscillator, 0.0, &y, h) {
+                let [value, slope, second] = p.bounds();
+                let xs = || (0..=200).map(|i| f64::from(i) / 200.0);
+                let most = |f: &dyn Fn(f64) -> f64| xs().map(|x| f(x).abs()).fold(0.0, f64::max);
+                let bend = |x: f64| (p.slope(x + 1e-5) - p.slope(x - 1e-5)) / 2e-5;
+                for (bound, found) in
+                    [(value, most(&|x| p.at(x))), (slope, most(&|x| p.slope(x))), (second, most(&bend))]
+                {
+                    assert!(found <= bound * (1.0 + 1e-6), "{found} against {bound}");
+                    assert!(bound <= 1.5 * found, "{bound} is far above {found}");
+                }
+            }
+        }
     }
 }

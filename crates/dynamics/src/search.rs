@@ -3,16 +3,20 @@
 
 use crate::flight::State;
 use crate::linear::Small;
-use crate::march::{March, Now, Real};
+use crate::march::{March, Real};
 use crate::pace::Pace;
 use crate::path::Path;
+use crate::sight::Sight;
 use crate::world::{Arm, World};
-use mainspring_mechanism::{Candidate, ContactId, Placed};
+use mainspring_mechanism::{Candidate, ContactId};
 
 /// A gap this small, relative to the machine's size, is closed.
 pub const CLOSED: f64 = 1e-13;
 /// Contacts this near, relative to the machine's size, are resolved together.
 pub const TOGETHER: f64 = 1e-10;
+/// Contacts that touch overlap by no more than this, relative to the machine's size: steps of the integrator leave
+/// less, and what touches is found again although it overlaps.
+pub const OVERLAP: f64 = 1e-6;
 /// Contact points this near to the end of a feature, relative to the machine's size, count as at the end.
 pub const BAND: f64 = 1e-9;
 /// Most evaluations along one contact and stretch.
@@ -94,7 +98,8 @@ pub fn first_closing(
 /// A time in which no feature moves further than a twentieth of the machine's size, by present speeds.
 fn first_piece(world: &World, stretch: &Stretch, moving: &[usize]) -> f64 {
     let n = stretch.paths.len();
-    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    let (mut q, mut v): (Small<f64, 8>, Small<f64, 8>) =
+        (smallvec::smallvec![0.0; n], smallvec::smallvec![0.0; n]);
     let far = 0.05 * world.system.size;
     let time = |world: &World, i: usize, q: &mut [f64], v: &mut [f64]| {
         set_state(&world.arms[i], stretch, stretch.from, q, v);
@@ -106,57 +111,87 @@ fn first_piece(world: &World, stretch: &Stretch, moving: &[usize]) -> f64 {
 }
 
 /// Looks along one interaction, from list to list.
-fn look_along<'a>(
-    world: &mut World<'a>,
+fn look_along(
+    world: &mut World,
     interaction: usize,
     stretch: &Stretch,
     watched: &[(ContactId, Watch)],
     real: Real,
     found: &mut Found,
 ) {
-    let n = stretch.paths.len();
-    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
-    let (a, b) = world.system.interactions[interaction].bodies;
-    let bodies = &world.system.bodies;
-    let moves = |body: usize| bodies[body].chain.iter().any(|j| !stretch.paths[j.coordinate].is_rest());
-    let moving = (moves(a), moves(b));
+    let mut sight = Sight::new(world, interaction, stretch, stretch.from);
     let mut t = stretch.from;
     for _ in 0..MOST_STEPS {
         if t >= found.clear_until {
             return;
         }
-        set_state(&world.arms[interaction], stretch, t, &mut q, &mut v);
-        let (travelled, room) = world.refresh(interaction, &q, 0.0);
+        sight.move_to(world, t);
+        let (travelled, room) = world.refresh(interaction, &sight.q, 0.0);
+        let state = (sight.q.as_slice(), sight.v.as_slice());
         let (end, pace) =
-            horizon(world, interaction, stretch, (&q, &v), (travelled, room), t, found.clear_until);
-        let sides = world.travelled(interaction, &q);
-        let placed = (Placed::new(&bodies[a], &q), Placed::new(&bodies[b], &q));
-        let mut moved = false;
-        for k in 0..world.listed(interaction).len() {
-            let candidate = world.listed(interaction)[k];
-            let shares = world.shares(&candidate);
-            let pace = pace.shared(shares);
-            let reach = sides[0] * shares[0] + sides[1] * shares[1] + pace.total() * (end - t);
-            if candidate.distance > reach || watched.contains(&(candidate.id, Watch::Closed)) {
-                continue;
-            }
-            if moved {
-                set_state(&world.arms[interaction], stretch, t, &mut q, &mut v);
-            }
-            let floor = watched.iter().find_map(|w| w.1.floor().filter(|_| w.0 == candidate.id));
-            let mut march =
-                March { stretch, t, end: end.min(found.clear_until), pace, reach, floor, placed, moving };
-            let before = world.evaluations;
-            if let Some(t) = march.run(world, &candidate, real, &mut Now { q: &mut q, v: &mut v }) {
-                *found = Found { closing: Some(Closing { t, candidate }), clear_until: t };
-            }
-            moved = world.evaluations > before + 1;
-        }
+            horizon(world, interaction, stretch, state, (travelled, room), t, found.clear_until);
+        let mut marches = within_reach(world, &sight, interaction, watched, (end, pace));
+        follow(world, &mut sight, &mut marches, end, real, found);
         t = end;
     }
     // The bound on work was met: what lies beyond is for the next search.
     if t < found.clear_until {
         *found = Found { closing: None, clear_until: t };
+    }
+}
+
+/// The contacts of an interaction that may close from the time in sight to `end`.
+fn within_reach<'a>(
+    world: &World<'a>,
+    sight: &Sight,
+    interaction: usize,
+    watched: &[(ContactId, Watch)],
+    (end, pace): (f64, Pace),
+) -> Small<March<'a>, 8> {
+    let sides = world.travelled(interaction, &sight.q);
+    let farthest = sides[0] + sides[1] + pace.total() * (end - sight.t);
+    let mut marches = Small::new();
+    for candidate in world.listed(interaction).iter().filter(|c| c.distance <= farthest) {
+        let shares = world.shares(candidate);
+        let pace = pace.shared(shares);
+        let reach = sides[0] * shares[0] + sides[1] * shares[1] + pace.total() * (end - sight.t);
+        let watch = watched.iter().find(|w| w.0 == candidate.id).map(|w| w.1);
+        if candidate.distance <= reach && watch != Some(Watch::Closed) {
+            let floor = watch.and_then(Watch::floor);
+            marches.push(March::new(world, candidate, pace, floor, sight.t));
+        }
+    }
+    marches
+}
+
+/// Marches along all contacts on one clock: places are shared by all contacts that are due soon.
+fn follow<'a>(
+    world: &mut World<'a>,
+    sight: &mut Sight<'_, '_, 'a>,
+    marches: &mut Small<March<'a>, 8>,
+    end: f64,
+    real: Real,
+    found: &mut Found,
+) {
+    let mut last = sight.t;
+    loop {
+        let now = marches.iter().map(|m| m.clear).fold(f64::INFINITY, f64::min);
+        if now >= end.min(found.clear_until) {
+            return;
+        }
+        sight.move_to(world, now);
+        let relative = sight.relative();
+        let soon = now + (now - last);
+        last = now;
+        for march in marches.iter_mut().filter(|m| m.clear <= soon) {
+            if let Some(t) = march.look(world, sight, &relative, end, real)
+                && t < found.clear_until
+            {
+                let closing = Some(Closing { t, candidate: march.candidate });
+                *found = Found { closing, clear_until: t };
+            }
+        }
+        marches.retain(|m| m.clear < end);
     }
 }
 

@@ -2,19 +2,26 @@
 //!
 //! With all closed contacts in G, an impact gives the velocities q̇⁺ that minimise
 //! `(q̇⁺ − q̇⁻)ᵀ M (q̇⁺ − q̇⁻)` subject to `G q̇⁺ ≥ 0` (perfectly inelastic); afterwards Gauss's principle gives the
-//! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem.
+//! accelerations in the same form. Contacts that close within `TOGETHER` of each other are one problem. Driven coordinates
+//! keep their prescribed motion. Dry friction has no share in an impact; what rests it holds with a force within ± T that
+//! joins the contact forces in Gauss's problem.
 
-use crate::complementarity::{Solution, solve};
+use crate::complementarity::{Solution, solve, solve_bounded};
+use crate::energy::kinetic;
+use crate::inertia::{Freedom, Inertia};
 use crate::linear::{Cholesky, Small};
 use crate::place::representatives;
-use crate::search::TOGETHER;
-use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, ContactId, ContactSource, Row, System};
+use crate::search::{OVERLAP, TOGETHER};
+use crate::simulation::Mode;
+use crate::world::{Touch, World, stop_candidate};
+use mainspring_mechanism::{Candidate, ContactId, ContactSource, Placed, Relative, Row, System};
 
 /// Rates below this fraction of the speeds at hand count as zero.
 const STILL: f64 = 1e-10;
 /// Relative accelerations below this fraction of those at hand count as zero.
 const BALANCED: f64 = 1e-10;
+/// Rates above this fraction of the speeds at hand are no chatter that has come to its end.
+const CHATTERING: f64 = 1e-5;
 /// Rounds of impacts at one instant.
 const MOST_ROUNDS: usize = 40;
 
@@ -22,6 +29,8 @@ const MOST_ROUNDS: usize = 40;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closed {
     pub candidate: Candidate,
+    /// Its gap when it was found closed: zero to rounding.
+    pub gap: f64,
     /// Force along the normal; 0 for a contact that stays closed without force.
     pub force: f64,
     /// Whether the motion rests on it.
@@ -41,17 +50,42 @@ pub struct Settled {
     pub impulses: Vec<Impulse>,
     /// Kinetic energy lost at impacts: ½ Δq̇ᵀ M Δq̇ summed over rounds.
     pub loss: f64,
+    /// Work that drives do at impacts: their impulse times their speed.
+    pub work: f64,
     pub closed: Vec<Closed>,
     /// Contacts that touch to rounding and are not closed, with their gaps.
     pub opening: Vec<(ContactId, f64)>,
-    /// Accelerations just after.
+    /// Accelerations just after, and sizes of what meets in them, by coordinate.
     pub acceleration: Vec<f64>,
+    pub weights: Small<f64, 8>,
+    /// Coordinates that dry friction holds, and the direction in which it lets others slide (0 without).
+    pub stuck: Vec<bool>,
+    pub sliding: Vec<f64>,
     /// False if the conditions could not be met to the tolerance.
     pub solved: bool,
 }
 
+impl Settled {
+    /// Counts what an earlier resolution of the same instant did at impacts as well.
+    pub fn add_blow(&mut self, earlier: Settled) {
+        let later = std::mem::replace(&mut self.impulses, earlier.impulses);
+        later.into_iter().for_each(|i| add_impulse(&mut self.impulses, i));
+        self.loss += earlier.loss;
+        self.work += earlier.work;
+        self.solved &= earlier.solved;
+    }
+}
+
+fn add_impulse(impulses: &mut Vec<Impulse>, new: Impulse) {
+    match impulses.iter_mut().find(|i| i.candidate.id == new.candidate.id) {
+        Some(before) => before.impulse += new.impulse,
+        None => impulses.push(new),
+    }
+}
+
 /// The state that an instant starts from. `speeds` are the greatest speeds so far, for tolerances.
 pub struct Instant<'a> {
+    pub t: f64,
     pub q: &'a [f64],
     pub speeds: &'a [f64],
     /// Contacts closed before.
@@ -59,26 +93,33 @@ pub struct Instant<'a> {
     /// A contact to leave out unless the others would make it overlap: its force has come to zero, or it ran off
     /// its feature.
     pub leaving: Option<ContactId>,
-    /// Set when a contact has come to chatter by less than can be told apart: rates up to this end here.
+    /// Set when a contact has come to chatter by less than can be told apart, or when events at one instant do not
+    /// end: rates up to this end here.
     pub chattering: Option<f64>,
+    /// A coordinate that dry friction no longer holds, and the direction in which it goes.
+    pub giving: Option<(usize, f64)>,
 }
 
 /// Resolves an instant; `v` is changed by impacts.
 pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     let mut out = Settled { solved: true, ..Settled::default() };
-    let near = near_touches(world, instant.q);
+    let placed = world.place_all(instant.q);
+    let near = near_touches(world, instant.q, &placed);
+    let (system, freedom) = (world.system, world.moved.clone());
+    let inertia = Inertia::whole(system, &freedom, (instant.q, v));
     for _ in 0..MOST_ROUNDS {
         let touches = choose(world, instant, &near, v);
-        if !impact(world.system, instant, &touches, v, &mut out) {
+        if !impact((world, &inertia), instant, &touches, v, &mut out) {
             break;
         }
     }
     if let Some(rate) = instant.chattering {
-        let touches = choose(world, instant, &near, v);
-        quieten(world.system, rate, &touches, v);
+        // At rest all that touches counts: also a corner that was on its way off a face.
+        let touches = choose(world, instant, &near, &vec![0.0; v.len()]);
+        quieten((&inertia, &freedom), instant, rate, &touches, v);
     }
     let touches = choose(world, instant, &near, v);
-    hold(world.system, instant, &touches, v, &mut out);
+    hold(world, instant, &touches, v, &mut out);
     // What touches along the same normal as a contact that lets go, and carries nothing, lets go with it.
     if let Some(left) = near.iter().find(|t| Some(t.candidate.id) == instant.leaving) {
         let lets_go = |c: &Closed| {
@@ -92,41 +133,56 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     out
 }
 
-/// Forces at a state of the contacts known to be closed there (Gelsey 1995, Sec. 2.2.2), in their order.
+/// Forces of the contacts known to be closed in a mode, at time `t` and state `(q, v)` within it (Gelsey 1995,
+/// Sec. 2.2.2), in their order.
 pub fn forces_at(
     system: &System,
     source: &dyn ContactSource,
-    closed: &[Closed],
-    q: &[f64],
-    v: &[f64],
+    mode: &Mode,
+    t: f64,
+    (q, v): (&[f64], &[f64]),
 ) -> Vec<Closed> {
     let mut world = World::new(system, source);
-    let touches: Vec<Touch> = closed.iter().map(|c| world.touch(&c.candidate, q)).collect();
-    let problem = Balance::new(system, touches.iter().collect(), q, v);
+    world.set_dry(&mode.stuck, &mode.sliding);
+    let placed = world.place_all(q);
+    let touches: Vec<Touch> =
+        mode.closed.iter().map(|c| world.touch_among(&c.candidate, q, &placed)).collect();
+    let stuck: Vec<usize> = (0..q.len()).filter(|&i| mode.stuck[i]).collect();
+    let problem = Balance::new(&world, touches.iter().collect(), &stuck, t, (q, v));
     let forces = problem.solution.lambda;
-    closed.iter().zip(forces).map(|(c, force)| Closed { force, active: force > 0.0, ..*c }).collect()
+    mode.closed.iter().zip(forces).map(|(c, force)| Closed { force, active: force > 0.0, ..*c }).collect()
 }
 
 /// Every contact closed to `TOGETHER` at `q`, wherever along its features.
-fn near_touches<'a>(world: &mut World<'a>, q: &[f64]) -> Vec<Touch<'a>> {
-    let within = TOGETHER * world.system.size;
+fn near_touches<'p>(world: &mut World, q: &[f64], placed: &'p [Placed<'p>]) -> Vec<Touch<'p>> {
+    let (within, deep) = (TOGETHER * world.system.size, OVERLAP * world.system.size);
+    let still: Small<f64, 8> = smallvec::smallvec![0.0; q.len()];
     let mut found = Vec::new();
     for interaction in 0..world.arms.len() {
-        let (travelled, _) = world.refresh(interaction, q, 2.0 * within);
+        let (travelled, _) = world.refresh(interaction, q, 2.0 * deep);
+        let (a, b) = world.system.interactions[interaction].bodies;
+        let relative = Relative::new(&placed[a], &placed[b], &still, &still);
         for k in 0..world.listed(interaction).len() {
             let candidate = world.listed(interaction)[k];
-            if candidate.distance - travelled <= 2.0 * within {
-                let touch = world.touch(&candidate, q);
-                if touch.state.gap <= within && touch.state.gap >= -1e3 * within {
-                    found.push(touch);
-                }
+            if candidate.distance - travelled > 2.0 * deep {
+                continue;
             }
+            let gap = world.approach(&candidate, &relative).gap;
+            if gap <= within && gap >= -deep {
+                found.push(world.touch_among(&candidate, q, placed));
+            }
+        }
+    }
+    for k in world.stops() {
+        let touch = world.touch_among(&stop_candidate(k), q, placed);
+        if touch.state.gap <= within {
+            found.push(touch);
         }
     }
     found
 }
 
-fn choose<'a>(world: &mut World<'a>, instant: &Instant, near: &[Touch<'a>], v: &[f64]) -> Vec<Touch<'a>> {
+fn choose<'p>(world: &mut World, instant: &Instant, near: &[Touch<'p>], v: &[f64]) -> Vec<Touch<'p>> {
     let kept: Vec<ContactId> = instant.closed.iter().map(|c| c.candidate.id).collect();
     let tolerances = |row: &Row| rate_tolerance(row, instant.speeds);
     let mut chosen = representatives(world, instant.q, v, near, &kept, &tolerances);
@@ -136,67 +192,105 @@ fn choose<'a>(world: &mut World<'a>, instant: &Instant, near: &[Touch<'a>], v: &
 
 /// Below this a rate of closing counts as zero.
 pub fn rate_tolerance(row: &Row, speeds: &[f64]) -> f64 {
-    STILL * row.entries().map(|(i, g)| g.abs() * speeds[i]).sum::<f64>()
+    STILL * reach_of(row, speeds)
+}
+
+/// The greatest rate that the greatest speeds so far could give.
+fn reach_of(row: &Row, speeds: &[f64]) -> f64 {
+    row.entries().map(|(i, g)| g.abs() * speeds[i]).sum()
 }
 
 /// One round of impact over the chosen contacts; false when nothing was closing.
-fn impact(system: &System, instant: &Instant, touches: &[Touch], v: &mut [f64], out: &mut Settled) -> bool {
+fn impact(
+    (world, inertia): (&World, &Inertia),
+    instant: &Instant,
+    touches: &[Touch],
+    v: &mut [f64],
+    out: &mut Settled,
+) -> bool {
     let rows: Vec<Row> = touches.iter().map(Touch::row).collect();
     let rates: Vec<f64> = touches.iter().map(|t| t.rate(v)).collect();
     let tolerance: Vec<f64> = rows.iter().map(|r| rate_tolerance(r, instant.speeds)).collect();
     if rates.iter().zip(&tolerance).all(|(rate, tol)| *rate >= -tol) {
         return false;
     }
-    let solution = solve(&inverse_inertia(system, &rows), &rates, &tolerance);
+    let solution = solve(&inertia.inverse(&rows), &rates, &tolerance);
     out.solved &= solution.solved;
     let mut change = vec![0.0; v.len()];
-    add_forces(system, &rows, &solution.lambda, &mut change);
-    for (i, c) in system.coordinates.iter().enumerate() {
-        out.loss += 0.5 * c.inertia * change[i] * change[i];
+    inertia.add_forces(&rows, &solution.lambda, &mut change);
+    out.loss += kinetic(world.system, instant.q, &change);
+    for &(i, _) in &world.drives {
+        let pressed: f64 = rows.iter().zip(&solution.lambda).map(|(row, l)| row.at(i) * l).sum();
+        out.work += v[i] * (inertia.momentum(i, &change) - pressed);
+    }
+    for i in (0..v.len()).filter(|&i| !world.moved.is_held(i)) {
         v[i] += change[i];
         if v[i].abs() <= 1e-13 * instant.speeds[i] {
             v[i] = 0.0;
         }
     }
-    stop_locked(&rows, &solution.active, v);
+    stop_locked(&world.moved, &rows, &solution.active, v);
     for (touch, &impulse) in touches.iter().zip(&solution.lambda).filter(|(_, l)| **l > 0.0) {
-        match out.impulses.iter_mut().find(|i| i.candidate.id == touch.candidate.id) {
-            Some(before) => before.impulse += impulse,
-            None => out.impulses.push(Impulse { candidate: touch.candidate, impulse }),
-        }
+        add_impulse(&mut out.impulses, Impulse { candidate: touch.candidate, impulse });
     }
     true
 }
 
 /// Ends a chatter: velocities that keep every touching contact with a small rate closed, nearest in the metric of
 /// inertia. The energy this takes is below what can be told apart.
-fn quieten(system: &System, rate: f64, touches: &[Touch], v: &mut [f64]) {
-    let slow = touches.iter().filter(|t| t.rate(v).abs() <= rate);
+fn quieten(
+    (inertia, freedom): (&Inertia, &Freedom),
+    instant: &Instant,
+    rate: f64,
+    touches: &[Touch],
+    v: &mut [f64],
+) {
+    let bound = |t: &Touch| rate.min(CHATTERING * reach_of(&t.row(), instant.speeds));
+    let slow = touches.iter().filter(|t| t.rate(v).abs() <= bound(t));
     let mut rows: Vec<Row> = Vec::new();
     for touch in slow {
         rows.push(touch.row());
-        if Cholesky::new(inverse_inertia(system, &rows), rows.len()).is_none() {
+        if Cholesky::new(inertia.inverse(&rows), rows.len()).is_none() {
             rows.pop();
         }
     }
-    let Some(factor) = Cholesky::new(inverse_inertia(system, &rows), rows.len()) else { return };
+    let Some(factor) = Cholesky::new(inertia.inverse(&rows), rows.len()) else { return };
     let rates: Vec<f64> = rows.iter().map(|r| -r.dot(v)).collect();
-    add_forces(system, &rows, &factor.solve(&rates), v);
+    inertia.add_forces(&rows, &factor.solve(&rates), v);
     let all: Vec<usize> = (0..rows.len()).collect();
-    stop_locked(&rows, &all, v);
+    stop_locked(freedom, &rows, &all, v);
 }
 
-/// As many independent active contacts as coordinates they touch: nothing there can move.
-fn stop_locked(rows: &[Row], active: &[usize], v: &mut [f64]) {
-    let groups = groups(rows, active);
-    for group in groups.iter().filter(|g| g.contacts.len() >= g.coordinates.len()) {
-        for &i in &group.coordinates {
-            v[i] = 0.0;
+/// As many independent active contacts as coordinates they touch: nothing there can move, unless a drive moves it.
+fn stop_locked(freedom: &Freedom, rows: &[Row], active: &[usize], v: &mut [f64]) {
+    let ties: Vec<Tie> = active.iter().map(|&k| Tie::of_row(freedom, &rows[k], k)).collect();
+    for group in groups(ties) {
+        let contacts = group.contacts.iter();
+        let driven = |k: &usize| rows[*k].entries().any(|(i, g)| freedom.is_held(i) && g * v[i] != 0.0);
+        if group.contacts.len() >= group.coordinates.len() && !contacts.clone().any(driven) {
+            for &i in &group.coordinates {
+                v[i] = 0.0;
+            }
         }
     }
 }
 
-/// Coordinates tied together by contacts.
+/// Coordinates that something ties together: a contact (an index into the rows) or masses.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tie {
+    pub coordinates: Vec<usize>,
+    pub contact: Option<usize>,
+}
+
+impl Tie {
+    /// The coordinates of a contact's row, those left out that are held.
+    pub fn of_row(freedom: &Freedom, row: &Row, k: usize) -> Self {
+        let coordinates = row.entries().map(|e| e.0).filter(|&i| !freedom.is_held(i)).collect();
+        Self { coordinates, contact: Some(k) }
+    }
+}
+
+/// Coordinates tied together.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
     /// In increasing order.
@@ -205,12 +299,11 @@ pub struct Group {
     pub contacts: Vec<usize>,
 }
 
-/// Sorts contacts into groups that share coordinates, in a fixed order.
-pub fn groups(rows: &[Row], active: &[usize]) -> Vec<Group> {
+/// Sorts ties into groups that share coordinates, in a fixed order. Ties without coordinates are left out.
+pub fn groups(ties: Vec<Tie>) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for &k in active {
-        let mut merged =
-            Group { coordinates: rows[k].entries().map(|(i, _)| i).collect(), contacts: vec![k] };
+    for tie in ties.into_iter().filter(|t| !t.coordinates.is_empty()) {
+        let mut merged = Group { coordinates: tie.coordinates, contacts: tie.contact.into_iter().collect() };
         let (joined, others): (Vec<Group>, Vec<Group>) =
             groups.into_iter().partition(|g| g.coordinates.iter().any(|i| merged.coordinates.contains(i)));
         for g in joined {
@@ -227,78 +320,106 @@ pub fn groups(rows: &[Row], active: &[usize]) -> Vec<Group> {
     groups
 }
 
-/// Which touching contacts stay closed, with what forces (Gauss's principle).
-fn hold(system: &System, instant: &Instant, touches: &[Touch], v: &[f64], out: &mut Settled) {
+/// Which touching contacts stay closed, with what forces, and what dry friction holds (Gauss's principle).
+fn hold(world: &mut World, instant: &Instant, touches: &[Touch], v: &[f64], out: &mut Settled) {
     let still =
         touches.iter().filter(|t| t.rate(v).abs() <= rate_tolerance(&t.row(), instant.speeds)).collect();
-    let Balance { touches, tolerance, solution, acceleration } = Balance::new(system, still, instant.q, v);
+    let sliding = slides(world, instant, v);
+    world.set_dry(&vec![false; v.len()], &sliding);
+    let rests =
+        |&i: &usize| world.system.forces.coulomb[i] > 0.0 && sliding[i] == 0.0 && !world.moved.is_held(i);
+    let resting: Vec<usize> = (0..v.len()).filter(rests).collect();
+    let problem = Balance::new(world, still, &resting, instant.t, (instant.q, v));
+    (out.stuck, out.sliding) = problem.dry(&resting, sliding);
+    let Balance { touches, tolerance, solution, acceleration, weights, .. } = problem;
     out.solved &= solution.solved;
-    out.acceleration = acceleration;
+    (out.acceleration, out.weights) = (acceleration, weights);
     for (k, touch) in touches.iter().enumerate() {
         let (force, candidate) = (solution.lambda[k], touch.candidate);
         if force > 0.0 || solution.w[k] <= tolerance[k] {
-            out.closed.push(Closed { candidate, force, active: force > 0.0 });
+            out.closed.push(Closed { candidate, gap: touch.state.gap, force, active: force > 0.0 });
         }
     }
 }
 
-/// Accelerations and contact forces by Gauss's principle over contacts with gap and rate zero.
+/// Directions in which free coordinates with dry friction slide: by their velocities, or as they have just let go.
+fn slides(world: &World, instant: &Instant, v: &[f64]) -> Vec<f64> {
+    let sign = |i: usize| match instant.giving {
+        Some((k, direction)) if k == i && v[i] == 0.0 => direction,
+        _ if world.system.forces.coulomb[i] > 0.0 && v[i] != 0.0 => v[i].signum(),
+        _ => 0.0,
+    };
+    (0..v.len()).map(|i| if world.moved.is_held(i) { 0.0 } else { sign(i) }).collect()
+}
+
+/// Accelerations, contact forces and what dry friction holds, by Gauss's principle over contacts with gap and rate zero
+/// and coordinates at rest.
 struct Balance<'t, 'a> {
     touches: Vec<&'t Touch<'a>>,
-    /// Relative accelerations below these count as zero, by contact.
+    /// Relative accelerations below these count as zero, by row: contacts, then coordinates at rest.
     tolerance: Vec<f64>,
     solution: Solution,
     /// Of every coordinate.
     acceleration: Vec<f64>,
+    weights: Small<f64, 8>,
+    /// Sizes of dry friction of the coordinates at rest.
+    sizes: Vec<f64>,
+    matrix: Small<f64, 16>,
 }
 
 impl<'t, 'a> Balance<'t, 'a> {
-    fn new(system: &System, touches: Vec<&'t Touch<'a>>, q: &[f64], v: &[f64]) -> Self {
-        let rows: Vec<Row> = touches.iter().map(|t| t.row()).collect();
-        let free = system.coordinates.iter().enumerate().map(|(i, c)| c.free_acceleration(q[i], v[i]));
-        let mut acceleration: Vec<f64> = free.collect();
-        let bias: Vec<f64> = touches.iter().map(|t| t.bias(v)).collect();
-        let b: Vec<f64> = rows.iter().zip(&bias).map(|(row, bias)| row.dot(&acceleration) + bias).collect();
-        let tolerance: Vec<f64> = rows
-            .iter()
-            .zip(&bias)
-            .map(|(row, bias)| BALANCED * (weigh(system, row, q, v) + bias.abs()))
-            .collect();
-        let solution = solve(&inverse_inertia(system, &rows), &b, &tolerance);
-        add_forces(system, &rows, &solution.lambda, &mut acceleration);
-        Self { touches, tolerance, solution, acceleration }
-    }
-}
-
-/// Size of the accelerations that meet at a contact, before they cancel.
-fn weigh(system: &System, row: &Row, q: &[f64], v: &[f64]) -> f64 {
-    row.entries()
-        .map(|(i, g)| {
-            let c = &system.coordinates[i];
-            let force = (c.force - c.stiffness * q[i]).abs() + (c.damping * v[i]).abs();
-            g.abs() * force / c.inertia
-        })
-        .sum()
-}
-
-/// `G M⁻¹ Gᵀ` in row order.
-pub fn inverse_inertia(system: &System, rows: &[Row]) -> Small<f64, 16> {
-    let product = |a: &Row, b: &Row| -> f64 {
-        a.entries()
-            .map(|(i, g)| {
-                let h: f64 = b.entries().filter(|(j, _)| *j == i).map(|(_, h)| h).sum();
-                g * h / system.coordinates[i].inertia
-            })
-            .sum()
-    };
-    rows.iter().flat_map(|a| rows.iter().map(move |b| product(a, b))).collect()
-}
-
-/// Adds `M⁻¹ Gᵀ λ`.
-pub fn add_forces(system: &System, rows: &[Row], lambda: &[f64], change: &mut [f64]) {
-    for (row, l) in rows.iter().zip(lambda) {
-        for (i, g) in row.entries() {
-            change[i] += g * l / system.coordinates[i].inertia;
+    fn new(
+        world: &World,
+        touches: Vec<&'t Touch<'a>>,
+        resting: &[usize],
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+    ) -> Self {
+        let inertia = Inertia::whole(world.system, &world.moved, (q, v));
+        let mut acceleration = vec![0.0; q.len()];
+        world.prescribe(t, &mut acceleration);
+        for i in (0..q.len()).filter(|&i| world.moved.is_alone(i)) {
+            acceleration[i] = world.acceleration_alone(i, q[i], v[i]);
         }
+        inertia.accelerate(|i| world.dry_force(i), &mut acceleration);
+        let weights = inertia.weights((q, v), &acceleration);
+        let contacts = touches.iter().map(|t| (t.row(), t.bias(v)));
+        let (rows, bias): (Vec<Row>, Vec<f64>) =
+            contacts.chain(resting.iter().map(|&i| (Row::single(i, 1.0), 0.0))).unzip();
+        let b: Vec<f64> = rows.iter().zip(&bias).map(|(row, bias)| row.dot(&acceleration) + bias).collect();
+        let weigh = |row: &Row| row.entries().map(|(i, g)| g.abs() * weights[i]).sum::<f64>();
+        let tolerance: Vec<f64> =
+            rows.iter().zip(&bias).map(|(row, bias)| BALANCED * (weigh(row) + bias.abs())).collect();
+        let sizes: Vec<f64> = resting.iter().map(|&i| world.system.forces.coulomb[i]).collect();
+        let matrix = inertia.inverse(&rows);
+        let solution = solve_bounded(&matrix, &b, &tolerance, &sizes);
+        inertia.add_forces(&rows, &solution.lambda, &mut acceleration);
+        Self { touches, tolerance, solution, acceleration, weights, sizes, matrix }
+    }
+
+    /// Which of the coordinates at rest are stuck; those at the limit of friction slide. One that contacts hold as
+    /// well is stuck only if it needs to be: what holds must stay independent.
+    fn dry(&self, resting: &[usize], mut sliding: Vec<f64>) -> (Vec<bool>, Vec<f64>) {
+        let contacts = self.touches.len();
+        let n = contacts + self.sizes.len();
+        let mut stuck = vec![false; sliding.len()];
+        let mut holding = self.solution.active.clone();
+        for (k, (&i, size)) in resting.iter().zip(&self.sizes).enumerate() {
+            let (row, force) = (contacts + k, self.solution.lambda[contacts + k]);
+            if self.solution.active.contains(&row) {
+                stuck[i] = true;
+            } else if force.abs() >= *size {
+                sliding[i] = -force.signum();
+            } else {
+                holding.push(row);
+                let entries =
+                    holding.iter().flat_map(|&r| holding.iter().map(move |&s| self.matrix[r * n + s]));
+                stuck[i] = Cholesky::new(entries.collect(), holding.len()).is_some();
+                if !stuck[i] {
+                    holding.pop();
+                }
+            }
+        }
+        (stuck, sliding)
     }
 }

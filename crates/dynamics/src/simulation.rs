@@ -2,16 +2,19 @@
 
 use crate::chatter::Chatter;
 use crate::component::{Component, Tolerance};
+use crate::descent::{Look, first_zero};
 use crate::energy::{Energy, friction_loss, kinetic, potential};
 use crate::events::{Event, entries};
 use crate::flight::{Flight, State};
+use crate::inertia::Inertia;
 use crate::minima::{Minimum, MinimumFinder};
-use crate::path::{Path, Piece, Trajectory};
+use crate::path::{DrivenPath, Path, Piece, Trajectory};
 use crate::place::is_standing;
 use crate::ranges::Track;
 use crate::search::{CLOSED, Stretch, Watch, first_closing};
-use crate::settle::{Closed, Instant, Settled, groups, settle};
+use crate::settle::{Closed, Group, Instant, Settled, Tie, groups, settle};
 use crate::watch::{Change, first_change};
+use crate::work::{applied_work, drive_work};
 use crate::world::World;
 use mainspring_mechanism::{ContactId, ContactSource, Coordinate, Row, System};
 
@@ -41,6 +44,8 @@ pub enum Status {
     AtRest,
     /// Met the bound on steps, or an instant without progress.
     StepLimit,
+    /// A drive runs against parts that cannot give way.
+    Jammed,
     /// Stopped from outside.
     Stopped,
 }
@@ -56,15 +61,27 @@ pub struct Stats {
 }
 
 /// Remaining energy, relative to the greatest kinetic energy, at which flights count as at rest.
-const AT_REST: f64 = 1e-13;
+pub(crate) const AT_REST: f64 = 1e-13;
 /// Events allowed without any passage of time.
-const MOST_AT_ONCE: u32 = 200;
+pub(crate) const MOST_AT_ONCE: u32 = 200;
 
-/// The contacts closed from a time on, until the next mode.
+/// Parts in contact are integrated at least this well: what a step leaves stays far below `OVERLAP`.
+const LOOSEST: f64 = 1e-7;
+
+/// Velocities below this fraction of what the greatest speeds make likely count as zero for dry friction.
+const HALTED: f64 = 1e-11;
+/// The part of a turn of the fastest drive after which what only drives move is looked at again.
+const DRIVEN_LOOK: f64 = 0.02;
+
+/// The contacts closed from a time on, until the next mode, and what dry friction does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     pub from: f64,
     pub closed: Vec<Closed>,
+    /// Coordinates that dry friction holds.
+    pub stuck: Vec<bool>,
+    /// Directions (±1) in which coordinates slide against dry friction; 0 for all others.
+    pub sliding: Vec<f64>,
 }
 
 /// A finished run: how it ended, where, and everything on the way.
@@ -103,13 +120,17 @@ pub struct Simulation<'a> {
     /// Contacts not to look for before a positive gap was seen, with the gap they count from.
     released: Vec<(ContactId, f64)>,
     chatter: Chatter,
-    /// Rate up to which a chatter ends at the next resolution.
-    chattering: Option<f64>,
     components: Vec<(Component, f64)>,
     next_step: f64,
+    /// Times in which springs, friction or weight act, by coordinate.
+    natural_times: Vec<f64>,
+    /// When the acceleration of a drive jumps next.
+    next_knot: f64,
     /// Longest time between looks at the motion; infinite unless an observer wants to stop early.
     pub longest_stretch: f64,
     at_once: u32,
+    /// A drive runs against what cannot give way.
+    jammed: bool,
     pub trajectory: Trajectory,
     pub events: Vec<Event>,
     pub energy: Energy,
@@ -123,12 +144,20 @@ pub struct Simulation<'a> {
 impl<'a> Simulation<'a> {
     /// Starts from the system's positions and velocities.
     pub fn new(system: &'a System, source: &'a dyn ContactSource, options: Options) -> Self {
-        let (q, v): (Vec<f64>, Vec<f64>) =
+        let (mut q, mut v): (Vec<f64>, Vec<f64>) =
             system.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
         let n = q.len();
         let world = World::new(system, source);
-        let scales = position_scales(&world);
-        let initial = kinetic(system, &v) + potential(system, &q);
+        for (i, drive) in &world.drives {
+            let driven = drive.at(0.0);
+            (q[*i], v[*i]) = (driven.q, driven.v);
+        }
+        let scales = position_scales(&world, &q);
+        let natural_times: Vec<f64> = {
+            let inertia = Inertia::whole(system, &world.moved, (&q, &v));
+            (0..n).map(|i| inertia.natural_time(i)).collect()
+        };
+        let initial = kinetic(system, &q, &v) + potential(system, &q);
         let mut run = Self {
             world,
             t: 0.0,
@@ -140,11 +169,13 @@ impl<'a> Simulation<'a> {
             modes: vec![],
             released: vec![],
             chatter: Chatter::default(),
-            chattering: None,
             components: vec![],
-            next_step: 0.05 * system.coordinates.iter().map(natural_time).fold(options.until, f64::min),
+            next_step: 0.05 * natural_times.iter().copied().fold(options.until, f64::min),
+            natural_times,
+            next_knot: f64::INFINITY,
             longest_stretch: f64::INFINITY,
             at_once: 0,
+            jammed: false,
             trajectory: Trajectory { pieces: vec![vec![]; n], times: vec![0.0] },
             events: vec![],
             energy: Energy { initial, last: initial, ..Energy::default() },
@@ -156,8 +187,9 @@ impl<'a> Simulation<'a> {
             q,
             v,
         };
-        run.energy.kinetic_max = kinetic(system, &run.v);
-        run.minima.top = run.energy.kinetic_max;
+        run.energy.kinetic_max = kinetic(system, &run.q, &run.v);
+        let driven: f64 = run.world.drives.iter().map(|&(i, _)| own_kinetic(system, i, run.v[i])).sum();
+        run.minima.top = (run.energy.kinetic_max - driven).max(0.0);
         run.resolve(None);
         run
     }
@@ -182,6 +214,9 @@ impl<'a> Simulation<'a> {
         if self.t >= self.options.until {
             return Some(self.end(Status::Complete));
         }
+        if self.jammed {
+            return Some(self.end(Status::Jammed));
+        }
         if self.stats.steps >= self.options.max_steps || self.at_once > MOST_AT_ONCE {
             return Some(self.end(Status::StepLimit));
         }
@@ -189,32 +224,41 @@ impl<'a> Simulation<'a> {
             return Some(self.end(Status::AtRest));
         }
         self.stats.steps += 1;
-        let Some(to) = self.integrate() else { return Some(self.end(Status::StepLimit)) };
+        let Some(to) = self.integrate() else { return Some(self.end(self.without_progress())) };
         let to = self.rest_time(to);
         let (at, change) = self.next_event(to);
         self.commit(at);
-        if let Some(change) = change {
-            self.note_closing(change);
-            self.resolve(change.leaving());
+        if change.is_some() || self.t >= self.next_knot {
+            self.resolve(change);
         } else {
             self.tend();
         }
         None
     }
 
+    /// Why equations cannot be solved: parts that a drive locks, or else nobody knows.
+    fn without_progress(&self) -> Status {
+        if self.drives_move() { Status::Jammed } else { Status::StepLimit }
+    }
+
+    fn drives_move(&self) -> bool {
+        self.world.drives.iter().any(|d| !self.paths[d.0].is_rest())
+    }
+
     /// Gives every moving component a path beyond the present; returns the end of the common stretch.
     fn integrate(&mut self) -> Option<f64> {
-        let mut to = self.options.until.min(self.t + self.longest_stretch);
+        let end = self.options.until.min(self.next_knot);
+        let mut to = end.min(self.t + self.longest_stretch);
         for k in 0..self.components.len() {
             if self.components[k].1 <= self.t {
                 let tolerance = Tolerance {
-                    relative: self.options.rtol,
+                    relative: self.options.rtol.min(LOOSEST),
                     positions: &self.scales,
                     speeds: &self.speeds,
                     shortest: 16.0 * f64::EPSILON * (1.0 + self.t.abs()),
                 };
                 let start = (self.t, self.q.as_slice(), self.v.as_slice());
-                let longest = self.options.until - self.t;
+                let longest = self.longest_step(k, end);
                 let (component, until) = &mut self.components[k];
                 let step = component.advance(&mut self.world, start, self.next_step, longest, &tolerance)?;
                 *until = self.t + step.h;
@@ -226,6 +270,19 @@ impl<'a> Simulation<'a> {
             to = to.min(self.components[k].1);
         }
         Some(to.min(self.t + self.longest_swing()))
+    }
+
+    /// What only drives move has no error to tell how long a step may be.
+    fn longest_step(&self, k: usize, end: f64) -> f64 {
+        let left = end - self.t;
+        if !self.components[k].0.coordinates.is_empty() {
+            return left;
+        }
+        let rate = |&(i, drive): &(usize, &mainspring_mechanism::Drive)| {
+            drive.bounds(self.t, end).0 / self.scales[i]
+        };
+        let fastest = self.world.drives.iter().map(rate).fold(0.0, f64::max);
+        left.min(DRIVEN_LOOK * std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE))
     }
 
     /// Stretches stay short against swings, so that no minimum or extreme inside is overlooked; unbounded if nothing
@@ -243,7 +300,7 @@ impl<'a> Simulation<'a> {
         let watched: Vec<(ContactId, Watch)> = self
             .closed
             .iter()
-            .map(|c| (c.candidate.id, Watch::Closed))
+            .map(|c| (c.candidate.id, self.watch_closed(c)))
             .chain(self.released.iter().map(|&(id, floor)| (id, Watch::Released { floor })))
             .collect();
         let stretch = Stretch { paths: &self.paths, from: self.t, to };
@@ -252,9 +309,11 @@ impl<'a> Simulation<'a> {
             is_standing(world, touch, q, v, speeds)
         };
         let found = first_closing(&mut self.world, &stretch, &watched, &mut real);
-        let to = found.clear_until;
-        let stretch = Stretch { paths: &self.paths, from: self.t, to };
+        let mut to = found.clear_until;
         let mut first = found.closing.map(|c| (c.t, Change::Closing(c.candidate.id)));
+        self.stop_closing(&watched, &mut to, &mut first);
+        self.first_halt(&mut to, &mut first);
+        let stretch = Stretch { paths: &self.paths, from: self.t, to };
         for (component, _) in &self.components {
             let limit = first.map_or(to, |f| f.0);
             let found = first_change(&mut self.world, component, &Stretch { to: limit, ..stretch });
@@ -270,11 +329,75 @@ impl<'a> Simulation<'a> {
         }
     }
 
+    /// A contact that carries no force may have to the next moment, between parts whose motion is exact: it then is as
+    /// one released. (Along steps of the integrator gaps are not that exact, and steps are short.)
+    fn watch_closed(&self, closed: &Closed) -> Watch {
+        let id = closed.candidate.id;
+        let stepped = |i: usize| matches!(self.paths[i], Path::Step { .. });
+        if closed.active || self.world.coordinates_of(id).any(stepped) {
+            return Watch::Closed;
+        }
+        Watch::Released { floor: closed.gap.min(0.0) }
+    }
+
+    /// Looks for the first stop that closes before `to`; shortens `to` to it.
+    fn stop_closing(&self, watched: &[(ContactId, Watch)], to: &mut f64, first: &mut Option<(f64, Change)>) {
+        let closed = CLOSED * self.world.system.size;
+        for k in self.world.stops() {
+            let stop = &self.world.system.forces.stops[k];
+            let (path, slope) = (&self.paths[stop.coordinate], stop.slope());
+            let watch = watched.iter().find(|w| w.0 == ContactId::of_stop(k)).map(|w| w.1);
+            if path.is_rest() || watch == Some(Watch::Closed) {
+                continue;
+            }
+            let below = if let Some(Watch::Released { floor }) = watch { floor } else { 0.0 };
+            let bend = slope.abs() * path.bounds(path.at(self.t), *to - self.t).acceleration;
+            let look = |t: f64| {
+                let state = path.at(t);
+                Look { x: stop.gap(state.q) - below, rate: slope * state.v, bend }
+            };
+            let found = first_zero(look, (self.t, *to), closed);
+            if let Some(t) = found.zero {
+                *first = Some((t, Change::Closing(ContactId::of_stop(k))));
+            } else if found.clear_until < *to {
+                *first = None;
+            }
+            *to = found.clear_until;
+        }
+    }
+
+    /// Looks for the first velocity against dry friction that comes to zero before `to`; shortens `to` to it.
+    fn first_halt(&self, to: &mut f64, first: &mut Option<(f64, Change)>) {
+        for i in (0..self.q.len()).filter(|&i| self.world.sliding[i] != 0.0 && !self.paths[i].is_rest()) {
+            let (path, sign) = (&self.paths[i], self.world.sliding[i]);
+            let bend = path.jerk(path.bounds(path.at(self.t), *to - self.t));
+            let look = |t: f64| {
+                let (state, acceleration) = path.with_acceleration(t);
+                Look { x: sign * state.v, rate: sign * acceleration, bend }
+            };
+            let found = first_zero(look, (self.t, *to), self.halted(i));
+            if let Some(t) = found.zero {
+                *first = Some((t, Change::Halts(i)));
+            } else if found.clear_until < *to {
+                *first = None;
+            }
+            *to = found.clear_until;
+        }
+    }
+
+    /// Velocities of coordinate `i` up to this count as zero for dry friction.
+    fn halted(&self, i: usize) -> f64 {
+        let relative = self.speeds.iter().zip(&self.scales).map(|(v, scale)| v / scale);
+        HALTED * self.scales[i] * relative.fold(0.0, f64::max)
+    }
+
     /// Moves the present to `t` along the paths.
     fn commit(&mut self, t: f64) {
         let system = self.world.system;
         self.minima.stretch(system, &self.paths, self.t, t);
         self.energy.friction += friction_loss(system, &self.paths, self.t, t);
+        self.energy.work += applied_work(system, &self.paths, self.t, t)
+            + drive_work(&mut self.world, &self.components, &self.paths, self.t, t);
         if let Some(track) = &mut self.track {
             track.ranges.extend(&self.paths, self.t, t);
             (track.from, track.to) = (self.t, t);
@@ -293,20 +416,23 @@ impl<'a> Simulation<'a> {
         for (component, _) in &self.components {
             component.project(&mut self.world, &mut self.q, &mut self.v);
         }
+        if !self.world.drives.is_empty() {
+            self.energy.kinetic_max = self.energy.kinetic_max.max(kinetic(system, &self.q, &self.v));
+        }
     }
 
     /// After a step without event: contacts closed without force may have begun to move apart, and contacts
     /// released may have opened.
     fn tend(&mut self) {
         let open = 8.0 * CLOSED * self.world.system.size;
-        let moving = |world: &World, id: u32, paths: &[Path]| {
-            world.arms[id as usize].iter().any(|arm| !paths[arm.coordinate].is_rest())
-        };
+        let moving =
+            |world: &World, id, paths: &[Path]| world.coordinates_of(id).any(|i| !paths[i].is_rest());
         let mut changed = false;
         for k in 0..self.closed.len() {
             let Closed { candidate, active, .. } = self.closed[k];
-            if !active && moving(&self.world, candidate.id.interaction, &self.paths) {
-                let touch = self.world.touch(&candidate, &self.q);
+            if !active && moving(&self.world, candidate.id, &self.paths) {
+                let (a, b) = self.world.place(&candidate, &self.q);
+                let touch = self.world.touch_at(&candidate, &self.q, (&a, &b));
                 let off = touch.margin(self.world.system.size) < 0.0;
                 changed |= touch.state.gap.abs() > open || off;
             }
@@ -321,8 +447,9 @@ impl<'a> Simulation<'a> {
     fn drop_opened(&mut self, open: f64) {
         let size = self.world.system.size;
         for (id, floor) in std::mem::take(&mut self.released) {
-            let Some(candidate) = find_candidate(&self.world, id) else { continue };
-            let touch = self.world.touch(&candidate, &self.q);
+            let Some(candidate) = self.world.find(id) else { continue };
+            let (a, b) = self.world.place(&candidate, &self.q);
+            let touch = self.world.touch_at(&candidate, &self.q, (&a, &b));
             let off = touch.margin(size) <= 0.0 && (touch.state.gap - floor).abs() > open;
             if touch.state.gap <= open && !off {
                 self.released.push((id, floor));
@@ -330,32 +457,32 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Keeps count of contacts that close again and again.
-    fn note_closing(&mut self, change: Change) {
-        self.chattering = None;
-        let Change::Closing(id) = change else { return };
-        let Some(candidate) = find_candidate(&self.world, id) else { return };
-        let rate = self.world.touch(&candidate, &self.q).rate(&self.v);
-        if self.chatter.closes(id, self.t, rate, self.world.system.size) {
-            // Bodies of unlike inertia throw each other faster than they meet.
-            self.chattering = Some(100.0 * rate.abs());
-        }
-    }
-
-    /// Resolves impacts and contact forces now, logs what changed, and gives every coordinate its path.
-    fn resolve(&mut self, leaving: Option<ContactId>) {
+    /// Resolves impacts, contact forces and dry friction now, logs what changed, and gives every coordinate its path.
+    fn resolve(&mut self, change: Option<Change>) {
+        self.halt(change);
         let before = self.v.clone();
         let mut v = self.v.clone();
-        let instant = Instant {
+        let mut instant = Instant {
+            t: self.t,
             q: &self.q,
             speeds: &self.speeds,
             closed: &self.closed,
-            leaving,
-            chattering: self.chattering.take(),
+            leaving: change.and_then(Change::leaving),
+            chattering: (self.at_once > MOST_AT_ONCE / 2).then_some(f64::INFINITY),
+            giving: change.and_then(Change::giving),
         };
-        let settled = settle(&mut self.world, &instant, &mut v);
+        let sliding = self.world.sliding.clone();
+        let mut settled = settle(&mut self.world, &instant, &mut v);
+        instant.chattering =
+            self.chatter.ends(&mut self.world, self.t, (&self.q, &self.v), &settled.impulses);
+        if instant.chattering.is_some() {
+            let blow = settled;
+            settled = settle(&mut self.world, &instant, &mut v);
+            settled.add_blow(blow);
+        }
         self.v = v;
         self.events.extend(entries(&self.world, self.t, &self.closed, &settled));
+        self.energy.work += settled.work;
         if !settled.impulses.is_empty() {
             self.stats.impacts += 1;
             self.energy.impacts += settled.loss;
@@ -363,28 +490,53 @@ impl<'a> Simulation<'a> {
         }
         if !settled.solved {
             self.at_once = MOST_AT_ONCE + 1;
+            self.jammed = !self.world.drives.is_empty();
         }
         for (speed, v) in self.speeds.iter_mut().zip(&self.v) {
             *speed = speed.max(v.abs());
         }
-        self.set_modes(&before, &settled);
+        self.world.set_dry(&settled.stuck, &settled.sliding);
+        self.set_drives();
+        self.set_modes((&before, &sliding), &settled);
         self.released = settled.opening.iter().map(|&(id, gap)| (id, gap.min(0.0))).collect();
         self.closed = settled.closed;
-        self.modes.push(Mode { from: self.t, closed: self.closed.clone() });
+        let Settled { stuck, sliding, .. } = settled;
+        self.modes.push(Mode { from: self.t, closed: self.closed.clone(), stuck, sliding });
     }
 
-    /// Rest, flight or component for every coordinate.
-    fn set_modes(&mut self, before: &[f64], settled: &Settled) {
+    /// Velocities that are zero for dry friction become so.
+    fn halt(&mut self, change: Option<Change>) {
+        for i in 0..self.v.len() {
+            let dry = self.world.system.forces.coulomb[i] > 0.0 && !self.world.moved.is_held(i);
+            if dry && (change == Some(Change::Halts(i)) || self.v[i].abs() <= self.halted(i)) {
+                self.v[i] = 0.0;
+            }
+        }
+    }
+
+    /// Paths of driven coordinates from now on, and when to look again.
+    fn set_drives(&mut self) {
+        self.next_knot = f64::INFINITY;
+        for k in 0..self.world.drives.len() {
+            let (i, drive) = self.world.drives[k];
+            let (path, until) = DrivenPath::new(drive, self.t);
+            let rests = path.is_rest();
+            self.set_path(i, if rests { Path::Rest { q: path.at(self.t).q } } else { Path::Driven(path) });
+            self.next_knot = self.next_knot.min(until);
+        }
+    }
+
+    /// Rest, flight or component for every coordinate that is not driven.
+    fn set_modes(&mut self, (before, sliding): (&[f64], &[f64]), settled: &Settled) {
         let active: Vec<&Closed> = settled.closed.iter().filter(|c| c.active).collect();
-        let rows: Vec<Row> = active.iter().map(|c| self.world.touch(&c.candidate, &self.q).row()).collect();
-        let all: Vec<usize> = (0..rows.len()).collect();
+        let placed = self.world.place_all(&self.q);
+        let row = |c: &&Closed| self.world.touch_among(&c.candidate, &self.q, &placed).row();
+        let rows: Vec<Row> = active.iter().map(row).collect();
         let mut in_group = vec![false; self.q.len()];
         self.components.clear();
-        for group in groups(&rows, &all) {
+        for group in groups(self.ties(&rows)) {
             group.coordinates.iter().for_each(|&i| in_group[i] = true);
-            let full = group.contacts.len() >= group.coordinates.len();
-            let still = group.coordinates.iter().all(|&i| self.is_still(i, settled.acceleration[i]));
-            if full || still {
+            if self.group_rests(&group, &rows, settled) {
                 for &i in &group.coordinates {
                     self.v[i] = 0.0;
                     self.set_path(i, Path::Rest { q: self.q[i] });
@@ -392,35 +544,75 @@ impl<'a> Simulation<'a> {
                 continue;
             }
             let contacts = group.contacts.iter().map(|&k| active[k].candidate).collect();
+            for &i in group.coordinates.iter().filter(|&&i| settled.stuck[i]) {
+                self.set_path(i, Path::Rest { q: self.q[i] });
+            }
             let component = Component::new(&self.world, group.coordinates, contacts);
             self.components.push((component, self.t));
         }
-        for i in (0..self.q.len()).filter(|&i| !in_group[i]) {
-            self.set_free(i, before[i], settled.acceleration[i]);
+        let moved = self.world.moved.clone();
+        for i in (0..self.q.len()).filter(|&i| !in_group[i] && !moved.is_held(i)) {
+            self.set_free(i, before[i], sliding[i], settled);
         }
     }
 
-    /// No contact carries force on coordinate `i`: it flies, or stays where nothing moves it.
-    fn set_free(&mut self, i: usize, v_before: f64, acceleration: f64) {
-        if self.is_still(i, acceleration) {
+    /// What ties coordinates that are not driven: contacts that carry force, and masses.
+    fn ties(&self, rows: &[Row]) -> Vec<Tie> {
+        let moved = &self.world.moved;
+        let mut ties: Vec<Tie> = rows.iter().enumerate().map(|(k, row)| Tie::of_row(moved, row, k)).collect();
+        for group in &self.world.system.coupled {
+            let coordinates = group.coordinates.iter().copied().filter(|&i| !moved.is_held(i)).collect();
+            ties.push(Tie { coordinates, contact: None });
+        }
+        ties
+    }
+
+    /// Does a group stay where it is: as many contacts as coordinates that move freely, or no force to move it, and no
+    /// drive that moves a part of it?
+    fn group_rests(&self, group: &Group, rows: &[Row], settled: &Settled) -> bool {
+        let free = group.coordinates.iter().filter(|&&i| !settled.stuck[i]).count();
+        let touched = |i: usize, g: f64| g != 0.0 && !self.paths[i].is_rest() && self.world.moved.is_held(i);
+        let by_contact = group.contacts.iter().any(|&k| rows[k].entries().any(|(i, g)| touched(i, g)));
+        let tied = self.world.system.coupled.iter().map(|c| &c.coordinates);
+        let mut tied = tied.filter(|c| c.iter().any(|i| group.coordinates.contains(i)));
+        if by_contact || tied.any(|c| c.iter().any(|&i| touched(i, 1.0))) {
+            return false;
+        }
+        let movable = |k: &&usize| rows[**k].entries().any(|(i, _)| !self.world.free.is_held(i));
+        let full = group.contacts.iter().filter(movable).count() >= free;
+        full || group.coordinates.iter().all(|&i| self.is_still(i, settled))
+    }
+
+    /// Nothing ties coordinate `i`: it flies, or stays where nothing moves it.
+    fn set_free(&mut self, i: usize, v_before: f64, sliding_before: f64, settled: &Settled) {
+        if settled.stuck[i] || self.is_still(i, settled) {
             self.v[i] = 0.0;
             self.set_path(i, Path::Rest { q: self.q[i] });
             return;
         }
-        let flies_on = matches!(self.paths[i], Path::Flight(_)) && v_before == self.v[i];
+        let flies_on = matches!(self.paths[i], Path::Flight(_))
+            && v_before == self.v[i]
+            && sliding_before == settled.sliding[i];
         if !flies_on {
             let c = &self.world.system.coordinates[i];
             let state = State { q: self.q[i], v: self.v[i] };
-            let flight = Flight::new(self.t, state, c.inertia, c.damping, c.stiffness, c.force);
+            let force = c.force + self.world.dry_force(i);
+            let flight = Flight::new(self.t, state, c.inertia, c.damping, c.stiffness, force);
             self.set_path(i, Path::Flight(flight));
         }
     }
 
     /// Neither moving nor about to, to rounding.
-    fn is_still(&self, i: usize, acceleration: f64) -> bool {
-        let c = &self.world.system.coordinates[i];
-        let force = c.force.abs() + (c.stiffness * self.q[i]).abs();
-        self.v[i].abs() <= 1e-13 * self.speeds[i] && acceleration.abs() <= 1e-13 * force / c.inertia
+    fn is_still(&self, i: usize, settled: &Settled) -> bool {
+        let acceleration = settled.acceleration[i].abs();
+        let limit = if self.world.moved.is_alone(i) {
+            let c = &self.world.system.coordinates[i];
+            let force = c.force.abs() + (c.stiffness * self.q[i]).abs() + self.world.system.forces.coulomb[i];
+            force / c.inertia
+        } else {
+            settled.weights[i]
+        };
+        self.v[i].abs() <= 1e-13 * self.speeds[i] && acceleration <= 1e-13 * limit
     }
 
     fn set_path(&mut self, i: usize, path: Path) {
@@ -437,7 +629,10 @@ impl<'a> Simulation<'a> {
     /// Everything rests, or moves with next to no energy left above its equilibrium.
     fn is_at_rest(&mut self) -> bool {
         let level = AT_REST * self.minima.top;
-        if kinetic(self.world.system, &self.v) > level || self.free_energy(self.t) > level {
+        if self.next_knot < f64::INFINITY || self.drives_move() {
+            return false;
+        }
+        if kinetic(self.world.system, &self.q, &self.v) > level || self.free_energy(self.t) > level {
             return false;
         }
         let mut components = std::mem::take(&mut self.components);
@@ -450,15 +645,14 @@ impl<'a> Simulation<'a> {
 
     /// Would the accelerations of a component, over the times of its springs, give it no more energy than `level`?
     fn is_quiet(&mut self, component: &Component, level: f64) -> bool {
-        let touches = component.touches(&mut self.world, &self.q);
         let mut a = vec![0.0; self.q.len()];
-        if component.forces_of(&self.world, &touches, &self.q, &self.v, &mut a).is_none() {
+        if component.forces(&mut self.world, self.t, (&self.q, &self.v), &mut a, |_| {}).is_none() {
             return false;
         }
-        let system = self.world.system;
-        let own = || component.coordinates.iter().map(|&i| (&system.coordinates[i], a[i]));
-        let square = own().map(|(c, _)| natural_time(c).powi(2)).fold(0.0, f64::max);
-        own().map(|(c, a)| 0.5 * c.inertia * a * a * square).sum::<f64>() <= level
+        let times = component.coordinates.iter().map(|&i| self.natural_times[i]);
+        let longest = times.fold(0.0, f64::max);
+        let gained: Vec<f64> = a.iter().map(|a| a * longest).collect();
+        kinetic(self.world.system, &self.q, &gained) <= level
     }
 
     /// Energy that flights still hold above their equilibria, at time `t` along the present paths. Infinite when
@@ -468,12 +662,14 @@ impl<'a> Simulation<'a> {
         coordinates
             .iter()
             .zip(&self.paths)
-            .filter(|(_, path)| matches!(path, Path::Flight(_)))
-            .map(|(c, path)| {
+            .enumerate()
+            .filter(|(_, (_, path))| matches!(path, Path::Flight(_)))
+            .map(|(i, (c, path))| {
                 let State { q, v } = path.at(t);
+                let force = c.force + self.world.dry_force(i);
                 let away = if c.stiffness > 0.0 {
-                    0.5 * c.stiffness * (q - c.force / c.stiffness).powi(2)
-                } else if c.force != 0.0 {
+                    0.5 * c.stiffness * (q - force / c.stiffness).powi(2)
+                } else if force != 0.0 {
                     f64::INFINITY
                 } else {
                     0.0
@@ -488,7 +684,13 @@ impl<'a> Simulation<'a> {
         let top = self.minima.top.max(self.energy.kinetic_max);
         // Before anything has moved, what can still be set free stands for the greatest kinetic energy.
         let level = AT_REST * if top > 0.0 { top } else { self.free_energy(self.t) };
-        if !self.components.is_empty() || level <= 0.0 || !level.is_finite() || self.free_energy(to) > level {
+        if !self.components.is_empty()
+            || self.drives_move()
+            || self.next_knot < f64::INFINITY
+            || level <= 0.0
+            || !level.is_finite()
+            || self.free_energy(to) > level
+        {
             return to;
         }
         let (mut moving, mut resting) = (self.t, to);
@@ -532,7 +734,8 @@ impl<'a> Simulation<'a> {
             self.trajectory.pieces[i].push(piece);
         }
         self.energy.kinetic_max = self.energy.kinetic_max.max(self.minima.top);
-        self.energy.last = kinetic(self.world.system, &self.v) + potential(self.world.system, &self.q);
+        self.energy.last =
+            kinetic(self.world.system, &self.q, &self.v) + potential(self.world.system, &self.q);
         self.stats.gap_evaluations = self.world.evaluations;
         self.status = Some(status);
         status
@@ -540,7 +743,7 @@ impl<'a> Simulation<'a> {
 }
 
 /// The time in which a coordinate's springs or friction act: √(I/k), or I/h, or 1.
-fn natural_time(c: &Coordinate) -> f64 {
+pub(crate) fn natural_time(c: &Coordinate) -> f64 {
     if c.stiffness > 0.0 {
         (c.inertia / c.stiffness).sqrt()
     } else if c.damping > 0.0 {
@@ -550,15 +753,19 @@ fn natural_time(c: &Coordinate) -> f64 {
     }
 }
 
-/// Positions change gaps by lever arms: a tolerance on gaps relative to the size, seen by each coordinate.
-fn position_scales(world: &World) -> Vec<f64> {
-    let mut arms = vec![0.0f64; world.system.coordinates.len()];
-    for arm in world.arms.iter().flatten() {
-        arms[arm.coordinate] = arms[arm.coordinate].max(arm.length);
-    }
-    arms.iter().map(|&a| if a > 0.0 { world.system.size / a } else { 1.0 }).collect()
+/// Kinetic energy of a coordinate's own inertia.
+fn own_kinetic(system: &System, i: usize, v: f64) -> f64 {
+    0.5 * system.coordinates[i].inertia * v * v
 }
 
-fn find_candidate(world: &World, id: ContactId) -> Option<mainspring_mechanism::Candidate> {
-    world.listed(id.interaction as usize).iter().copied().find(|c| c.id == id)
+/// Positions change gaps by lever arms: a tolerance on gaps relative to the size, seen by each coordinate.
+pub(crate) fn position_scales(world: &World, q: &[f64]) -> Vec<f64> {
+    let mut arms = vec![0.0f64; world.system.coordinates.len()];
+    for list in &world.arms {
+        for arm in list {
+            let length = arm.reach(|k| q[list[k].coordinate].abs());
+            arms[arm.coordinate] = arms[arm.coordinate].max(length);
+        }
+    }
+    arms.iter().map(|&a| if a > 0.0 { world.system.size / a } else { 1.0 }).collect()
 }

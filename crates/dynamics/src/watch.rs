@@ -1,13 +1,15 @@
-//! Changes of contacts that are closed: a force that comes to zero, a contact point that runs off its feature.
+//! Changes of what is closed or stuck: a force that comes to zero, a contact point that runs off its feature, a part that
+//! dry friction no longer holds.
 
 use crate::component::Component;
 use crate::linear::Small;
+use crate::root::narrow;
 use crate::search::Stretch;
-use crate::world::World;
+use crate::world::{Touch, World};
 use mainspring_mechanism::ContactId;
 
 /// Why a stretch ends before its time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
     /// A contact closes.
     Closing(ContactId),
@@ -15,26 +17,42 @@ pub enum Change {
     Unloaded(ContactId),
     /// A contact point comes to the end of its feature.
     RanOff(ContactId),
+    /// A velocity against dry friction comes to zero.
+    Halts(usize),
+    /// Dry friction no longer holds a coordinate, which goes in this direction.
+    Gives(usize, f64),
 }
 
 impl Change {
     /// The contact that lets go, if it is a change of that kind.
     pub fn leaving(self) -> Option<ContactId> {
         match self {
-            Change::Closing(_) => None,
             Change::Unloaded(id) | Change::RanOff(id) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// The coordinate that gives, with its direction.
+    pub fn giving(self) -> Option<(usize, f64)> {
+        match self {
+            Change::Gives(i, direction) => Some((i, direction)),
+            _ => None,
         }
     }
 }
 
+/// A contact point has run off once it is this far past the end of its feature, relative to the machine's size: more
+/// than rounding, so that a corner that turns flush lets go only after the next one has closed.
+const PAST_END: f64 = 1e-11;
 /// Samples of a stretch in which a change is looked for.
 const SAMPLES: u32 = 3;
 
-/// The first change of a component's contacts over the stretch.
+/// The first change of a component's contacts and of what dry friction holds over the stretch.
 pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch) -> Option<(f64, Change)> {
     let n = stretch.paths.len();
+    let zero = || -> Small<f64, 8> { smallvec::smallvec![0.0; n] };
     let mut probe =
-        Probe { component, stretch, q: vec![0.0; n], v: vec![0.0; n], acceleration: vec![0.0; n] };
+        Probe { component, stretch, q: zero(), v: zero(), acceleration: zero(), lambda: Small::new() };
     let mut before = stretch.from;
     for k in 1..=SAMPLES {
         let t = stretch.from + (stretch.to - stretch.from) * f64::from(k) / f64::from(SAMPLES);
@@ -43,8 +61,7 @@ pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch)
         if !failing.is_empty() {
             let found = failing.iter().map(|&i| (probe.zero(world, i, before, (t, measures[i])), i));
             let (t, i) = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-            let id = component.contacts[i / 2].id;
-            return Some((t, if i % 2 == 0 { Change::Unloaded(id) } else { Change::RanOff(id) }));
+            return Some((t, probe.change(world, i, t)));
         }
         before = t;
     }
@@ -54,67 +71,75 @@ pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch)
 struct Probe<'c, 's, 'p> {
     component: &'c Component,
     stretch: &'s Stretch<'p>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
+    q: Small<f64, 8>,
+    v: Small<f64, 8>,
+    acceleration: Small<f64, 8>,
+    /// Contact forces where last measured.
+    lambda: Small<f64>,
 }
 
 impl Probe<'_, '_, '_> {
-    fn move_to(&mut self, t: f64) {
-        for &i in &self.component.coordinates {
+    fn move_to(&mut self, world: &World, t: f64) {
+        let (component, drives) = (self.component, world.drives.iter().map(|d| d.0));
+        for i in component.coordinates.iter().chain(&component.stuck).copied().chain(drives) {
             let state = self.stretch.paths[i].at(t);
             (self.q[i], self.v[i]) = (state.q, state.v);
         }
     }
 
-    /// Force and margin of every contact in turn: a contact stays while both are positive.
+    /// Force and margin of every contact in turn, then how far dry friction is from its limit at every coordinate it
+    /// holds: all stays while these are positive.
     fn measure_all(&mut self, world: &mut World, t: f64) -> Small<f64, 8> {
-        self.move_to(t);
+        self.move_to(world, t);
         let size = world.system.size;
-        let touches = self.component.touches(world, &self.q);
-        let forces = self.component.forces_of(world, &touches, &self.q, &self.v, &mut self.acceleration);
-        let forces = forces.unwrap_or_else(|| touches.iter().map(|_| 0.0).collect());
-        forces.into_iter().zip(&touches).flat_map(|(force, t)| [force, t.margin(size)]).collect()
+        let mut measures: Small<f64, 8> = Small::new();
+        let margin = |touch: &Touch| measures.extend([0.0, touch.margin(size) + PAST_END * size]);
+        let state = (self.q.as_slice(), self.v.as_slice());
+        let forces = self.component.forces(world, t, state, &mut self.acceleration, margin);
+        self.lambda = forces.unwrap_or_default();
+        for (measure, force) in measures.iter_mut().step_by(2).zip(&self.lambda) {
+            *measure = *force;
+        }
+        for k in 0..self.component.stuck.len() {
+            measures.push(world.system.forces.coulomb[self.component.stuck[k]] - self.held(world, k).abs());
+        }
+        measures
+    }
+
+    /// The force of dry friction on the k-th stuck coordinate, where last measured.
+    fn held(&mut self, world: &mut World, k: usize) -> f64 {
+        let state = (self.q.as_slice(), self.v.as_slice());
+        self.component.holding(world, self.component.stuck[k], state, &self.acceleration, &self.lambda)
     }
 
     /// One of them; a margin needs its own contact only.
     fn measure(&mut self, world: &mut World, i: usize, t: f64) -> f64 {
-        if i.is_multiple_of(2) {
+        if i.is_multiple_of(2) || i >= 2 * self.component.contacts.len() {
             return self.measure_all(world, t)[i];
         }
-        self.move_to(t);
+        self.move_to(world, t);
         let size = world.system.size;
-        world.touch(&self.component.contacts[i / 2], &self.q).margin(size)
+        let contact = &self.component.contacts[i / 2];
+        let (a, b) = world.place(contact, &self.q);
+        world.touch_at(contact, &self.q, (&a, &b)).margin(size) + PAST_END * size
     }
 
-    /// The time after `good` at which measure `i` turns negative, given a later time at which it is: regula falsi of
-    /// Illinois, to the grain of the clock.
+    /// What it means that measure `i` has come to zero at time `t`.
+    fn change(&mut self, world: &mut World, i: usize, t: f64) -> Change {
+        if let Some(k) = i.checked_sub(2 * self.component.contacts.len()) {
+            self.measure_all(world, t);
+            return Change::Gives(self.component.stuck[k], -self.held(world, k).signum());
+        }
+        let id = self.component.contacts[i / 2].id;
+        if i.is_multiple_of(2) { Change::Unloaded(id) } else { Change::RanOff(id) }
+    }
+
+    /// The time after `good` at which measure `i` turns negative, given a later time at which it is.
     fn zero(&mut self, world: &mut World, i: usize, good: f64, bad: (f64, f64)) -> f64 {
-        let (mut a, mut fa) = (good, self.measure(world, i, good));
-        let (mut b, mut fb) = bad;
-        if fa <= 0.0 {
-            return a;
+        let start = (good, self.measure(world, i, good));
+        if start.1 <= 0.0 {
+            return good;
         }
-        let mut last_negative = None;
-        for k in 0..100 {
-            if b - a <= 4.0 * f64::EPSILON * (1.0 + b.abs()) {
-                break;
-            }
-            let secant = b - fb * (b - a) / (fb - fa);
-            let t = if k % 8 == 7 { 0.5 * (a + b) } else { secant }.clamp(a, b);
-            let f = self.measure(world, i, t);
-            if f < 0.0 {
-                (b, fb) = (t, f);
-                fa *= if last_negative == Some(true) { 0.5 } else { 1.0 };
-            } else {
-                (a, fa) = (t, f);
-                fb *= if last_negative == Some(false) { 0.5 } else { 1.0 };
-            }
-            if f == 0.0 || (k > 0 && f.abs() <= 1e-15 * world.system.size && i % 2 == 1) {
-                return t;
-            }
-            last_negative = Some(f < 0.0);
-        }
-        b
+        narrow(|t| self.measure(world, i, t), start, bad).1.0
     }
 }

@@ -3,18 +3,37 @@
 //! A list made at configuration q₀ with reach r names every contact whose features were nearer than r. Features
 //! move no faster than their lever arms allow, so until the arms have travelled r no other contact can close.
 
-use mainspring_mechanism::{Candidate, ContactSource, Feature, GapState, Placed, Row, System, gap_state};
+use crate::inertia::Freedom;
+use mainspring_mechanism::{
+    Approach, Candidate, ContactId, ContactSource, Drive, Feature, GapKind, GapState, MAX_CHAIN, Motion,
+    Placed, Relative, Row, System, approach, gap_state,
+};
+use std::sync::Arc;
 
 /// A coordinate that moves one side of an interaction.
 #[derive(Clone, Copy, Debug)]
 pub struct Arm {
     pub coordinate: usize,
-    /// Greatest distance moved per unit of the coordinate (length per radian, or 1).
+    /// Greatest distance moved per unit of the coordinate (length per radian, or 1), with the slides after it where
+    /// they are as modelled.
     pub length: f64,
+    /// Slides later in the chain, which lengthen the arm of a turn: places in the list of arms, and lengths per unit of theirs.
+    slides: [(u8, f64); MAX_CHAIN - 1],
+    slide_count: u8,
     /// Turning per unit of the coordinate (|ratio| or 0).
     pub turn: f64,
     /// On the second body?
     pub second: bool,
+}
+
+impl Arm {
+    /// The arm's length where slides later in the chain have moved; `moved` tells how far the coordinate of an arm
+    /// (its place in the list) is from zero at most.
+    #[inline]
+    pub fn reach(&self, moved: impl Fn(usize) -> f64) -> f64 {
+        let slides = self.slides[..usize::from(self.slide_count)].iter();
+        self.length + slides.map(|&(k, factor)| factor * moved(usize::from(k))).sum::<f64>()
+    }
 }
 
 #[derive(Clone, Debug, Default)]
@@ -32,34 +51,60 @@ pub struct World<'a> {
     source: &'a dyn ContactSource,
     pub arms: Vec<Vec<Arm>>,
     near: Vec<NearList>,
+    /// Coordinates of prescribed motion.
+    pub drives: Vec<(usize, &'a Drive)>,
+    /// All coordinates move freely but those driven.
+    pub moved: Arc<Freedom>,
+    /// At present: those stuck by dry friction are held as well.
+    pub free: Arc<Freedom>,
+    /// Which coordinates dry friction holds, and against what motion (+1, −1, or 0 for none) it acts on others.
+    pub stuck: Vec<bool>,
+    pub sliding: Vec<f64>,
     /// Gap evaluations so far.
     pub evaluations: u64,
     /// Lists made so far.
     pub queries: u64,
 }
 
-/// A contact evaluated at a configuration.
+/// Two bodies of an interaction, placed.
+pub type Pair<'a> = (Placed<'a>, Placed<'a>);
+
+/// A contact evaluated between placed bodies.
 #[derive(Clone, Copy, Debug)]
-pub struct Touch<'a> {
+pub struct Touch<'p> {
     pub candidate: Candidate,
     pub state: GapState,
-    placed: (Placed<'a>, Placed<'a>),
+    pub placed: (&'p Placed<'p>, &'p Placed<'p>),
+    /// For a stop its coordinate and ∂g/∂q.
+    stop: Option<(usize, f64)>,
 }
 
 impl Touch<'_> {
     /// ∂g/∂q.
+    #[inline]
     pub fn row(&self) -> Row {
-        self.state.row(&self.placed.0, &self.placed.1)
+        if let Some((i, slope)) = self.stop {
+            return Row::single(i, slope);
+        }
+        self.state.row(self.placed.0, self.placed.1)
     }
 
     /// ġ at velocities `v`.
+    #[inline]
     pub fn rate(&self, v: &[f64]) -> f64 {
-        self.state.rate(&self.placed.0, &self.placed.1, v)
+        match self.stop {
+            Some((i, slope)) => slope * v[i],
+            None => self.state.rate(self.placed.0, self.placed.1, v),
+        }
     }
 
     /// The part of g̈ that accelerations do not cause.
+    #[inline]
     pub fn bias(&self, v: &[f64]) -> f64 {
-        self.state.bias(&self.placed.0, &self.placed.1, v)
+        match self.stop {
+            Some(_) => 0.0,
+            None => self.state.bias(self.placed.0, self.placed.1, v),
+        }
     }
 
     /// The nearer of the margins to the ends of the features: length along edges, `size`·radians across cones.
@@ -72,7 +117,46 @@ impl<'a> World<'a> {
     pub fn new(system: &'a System, source: &'a dyn ContactSource) -> Self {
         let arms: Vec<Vec<Arm>> = (0..system.interactions.len()).map(|i| arms(system, i)).collect();
         let near = vec![NearList::default(); arms.len()];
-        Self { system, source, arms, near, evaluations: 0, queries: 0 }
+        let drives: Vec<(usize, &Drive)> =
+            system.forces.drives.iter().enumerate().filter_map(|(i, d)| Some((i, d.as_ref()?))).collect();
+        let n = system.coordinates.len();
+        let driven = (0..n).map(|i| drives.iter().any(|d| d.0 == i)).collect();
+        let moved = Arc::new(Freedom::new(system, driven));
+        let free = moved.clone();
+        let (stuck, sliding) = (vec![false; n], vec![0.0; n]);
+        Self { system, source, arms, near, drives, moved, free, stuck, sliding, evaluations: 0, queries: 0 }
+    }
+
+    /// Takes over what dry friction does from now on.
+    pub fn set_dry(&mut self, stuck: &[bool], sliding: &[f64]) {
+        self.sliding.copy_from_slice(sliding);
+        if self.stuck == stuck {
+            return;
+        }
+        self.stuck.copy_from_slice(stuck);
+        let held = |i: usize| stuck[i] || self.moved.is_held(i);
+        self.free = Arc::new(Freedom::new(self.system, (0..stuck.len()).map(held).collect()));
+    }
+
+    /// Force of dry friction on a sliding coordinate.
+    #[inline]
+    pub fn dry_force(&self, i: usize) -> f64 {
+        -self.sliding[i] * self.system.forces.coulomb[i]
+    }
+
+    /// Acceleration of a free coordinate that is tied to no other, without contacts.
+    #[inline]
+    pub fn acceleration_alone(&self, i: usize, q: f64, v: f64) -> f64 {
+        let c = &self.system.coordinates[i];
+        let linear = c.free_acceleration(q, v);
+        if self.sliding[i] == 0.0 { linear } else { linear + self.dry_force(i) / c.inertia }
+    }
+
+    /// Writes the accelerations of driven coordinates at time `t`.
+    pub fn prescribe(&self, t: f64, acceleration: &mut [f64]) {
+        for (i, drive) in &self.drives {
+            acceleration[*i] = drive.at(t).a;
+        }
     }
 
     /// The features of a contact.
@@ -84,23 +168,79 @@ impl<'a> World<'a> {
 
     /// The bodies of a contact.
     pub fn bodies(&self, c: &Candidate) -> (usize, usize) {
+        if let Some(stop) = c.id.stop() {
+            return self.system.forces.stops[stop].bodies;
+        }
         self.system.interactions[c.id.interaction as usize].bodies
     }
 
-    /// Evaluates a contact at positions `q`.
-    pub fn touch(&mut self, c: &Candidate, q: &[f64]) -> Touch<'a> {
+    /// The bodies of a contact at positions `q`.
+    pub fn place(&self, c: &Candidate, q: &[f64]) -> Pair<'a> {
         let (a, b) = self.bodies(c);
         let bodies = &self.system.bodies;
-        let placed = (Placed::new(&bodies[a], q), Placed::new(&bodies[b], q));
-        self.touch_placed(c, placed)
+        (Placed::new(&bodies[a], q), Placed::new(&bodies[b], q))
     }
 
-    /// Evaluates a contact between bodies already placed.
-    pub fn touch_placed(&mut self, c: &Candidate, placed: (Placed<'a>, Placed<'a>)) -> Touch<'a> {
+    /// Every body at positions `q`.
+    pub fn place_all(&self, q: &[f64]) -> Vec<Placed<'a>> {
+        self.system.bodies.iter().map(|body| Placed::new(body, q)).collect()
+    }
+
+    /// Evaluates a contact between its bodies.
+    pub fn touch<'p>(&mut self, c: &Candidate, placed: (&'p Placed<'p>, &'p Placed<'p>)) -> Touch<'p> {
         self.evaluations += 1;
         let (fa, fb) = self.features(c);
         let state = gap_state(c.kind, fa, fb, &placed.0.pose, &placed.1.pose);
-        Touch { candidate: *c, state, placed }
+        Touch { candidate: *c, state, placed, stop: None }
+    }
+
+    /// Evaluates a contact or a stop between its bodies at positions `q`.
+    #[inline]
+    pub fn touch_at<'p>(
+        &mut self,
+        c: &Candidate,
+        q: &[f64],
+        placed: (&'p Placed<'p>, &'p Placed<'p>),
+    ) -> Touch<'p> {
+        let Some(k) = c.id.stop() else { return self.touch(c, placed) };
+        let stop = &self.system.forces.stops[k];
+        let state = GapState::of_stop(stop.gap(q[stop.coordinate]));
+        Touch { candidate: *c, state, placed, stop: Some((stop.coordinate, stop.slope())) }
+    }
+
+    /// Evaluates a contact or a stop among all bodies placed at `q`.
+    pub fn touch_among<'p>(&mut self, c: &Candidate, q: &[f64], placed: &'p [Placed<'p>]) -> Touch<'p> {
+        let (a, b) = self.bodies(c);
+        self.touch_at(c, q, (&placed[a], &placed[b]))
+    }
+
+    /// Stops of coordinates that are not driven (drives are known to stay within theirs).
+    pub fn stops(&self) -> impl Iterator<Item = usize> + use<'a> {
+        let forces = &self.system.forces;
+        let free = |k: &usize| forces.drives[forces.stops[*k].coordinate].is_none();
+        (0..forces.stops.len()).filter(free)
+    }
+
+    /// A known contact or stop by its identity.
+    pub fn find(&self, id: ContactId) -> Option<Candidate> {
+        match id.stop() {
+            Some(k) => Some(stop_candidate(k)),
+            None => self.listed(id.interaction as usize).iter().copied().find(|c| c.id == id),
+        }
+    }
+
+    /// The coordinates that move a contact.
+    pub fn coordinates_of(&self, id: ContactId) -> impl Iterator<Item = usize> + '_ {
+        let stop = id.stop().map(|k| self.system.forces.stops[k].coordinate);
+        let arms: &[Arm] = if stop.is_some() { &[] } else { &self.arms[id.interaction as usize] };
+        stop.into_iter().chain(arms.iter().map(|arm| arm.coordinate))
+    }
+
+    /// Gap and rate of a contact in the relative motion of its bodies.
+    pub fn approach(&mut self, c: &Candidate, relative: &Relative) -> Approach {
+        self.evaluations += 1;
+        let (fa, fb) = self.features(c);
+        approach(c.kind, fa, fb, relative)
     }
 
     /// How far the arms of either side of an interaction have moved since its list was made.
@@ -110,8 +250,10 @@ impl<'a> World<'a> {
             return [f64::INFINITY; 2];
         }
         let mut sides = [0.0; 2];
-        for (arm, at) in self.arms[interaction].iter().zip(made_at) {
-            sides[usize::from(arm.second)] += arm.length * (q[arm.coordinate] - at).abs();
+        let arms = &self.arms[interaction];
+        for (arm, at) in arms.iter().zip(made_at) {
+            let length = arm.reach(|k| q[arms[k].coordinate].abs().max(made_at[k].abs()));
+            sides[usize::from(arm.second)] += length * (q[arm.coordinate] - at).abs();
         }
         sides
     }
@@ -158,22 +300,32 @@ impl<'a> World<'a> {
     }
 }
 
+/// A stop as a contact.
+pub fn stop_candidate(k: usize) -> Candidate {
+    Candidate { id: ContactId::of_stop(k), kind: GapKind::RoundRound, distance: 0.0 }
+}
+
 fn arms(system: &System, interaction: usize) -> Vec<Arm> {
     let it = &system.interactions[interaction];
-    let side = |body: usize, levers: &[f64], second: bool| -> Vec<Arm> {
-        let chain = &system.bodies[body].chain;
-        chain
-            .iter()
-            .zip(levers)
-            .map(|(joint, lever)| {
-                let turns = matches!(joint.motion, mainspring_mechanism::Motion::Turn { .. });
-                let ratio = joint.ratio.abs();
-                let turn = if turns { ratio } else { 0.0 };
-                Arm { coordinate: joint.coordinate, length: lever * ratio, turn, second }
-            })
-            .collect()
-    };
-    let mut arms = side(it.bodies.0, &it.levers.0, false);
-    arms.extend(side(it.bodies.1, &it.levers.1, true));
+    let chains = (&system.bodies[it.bodies.0].chain, &system.bodies[it.bodies.1].chain);
+    let shared = chains.0.iter().zip(chains.1).take_while(|(j, k)| j == k).count();
+    let mut arms: Vec<Arm> = Vec::new();
+    for (chain, levers, second) in [(chains.0, &it.levers.0, false), (chains.1, &it.levers.1, true)] {
+        let first = arms.len();
+        for (k, (joint, lever)) in chain.iter().zip(levers).enumerate() {
+            let (ratio, turns) = (joint.ratio.abs(), matches!(joint.motion, Motion::Turn { .. }));
+            // What carries both bodies turns nothing between them.
+            let turn = if turns && k >= shared { ratio } else { 0.0 };
+            let (mut slides, mut slide_count) = ([(0, 0.0); MAX_CHAIN - 1], 0);
+            let later = chain.iter().enumerate().take(MAX_CHAIN).skip(k + 1);
+            let later = later.filter(|(_, j)| turn > 0.0 && matches!(j.motion, Motion::Slide { .. }));
+            for (n, slide) in later {
+                slides[usize::from(slide_count)] = ((first + n) as u8, ratio * slide.ratio.abs());
+                slide_count += 1;
+            }
+            let (coordinate, length) = (joint.coordinate, lever * ratio);
+            arms.push(Arm { coordinate, length, slides, slide_count, turn, second });
+        }
+    }
     arms
 }

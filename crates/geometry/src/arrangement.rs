@@ -3,6 +3,7 @@
 //! Common points are computed between representatives of classes, only where their faces come near each
 //! other; points within the tolerance become one vertex.
 
+use crate::budget::OutlineBudget;
 use crate::classes::{Classes, Tolerance};
 use crate::section::Face;
 use crate::{OutlineError, Vec2};
@@ -10,42 +11,6 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::{PI, TAU};
-
-/// The work one outline may cost, so that hostile input ends in an error and not in a wait.
-#[derive(Debug)]
-pub(crate) struct Budget {
-    /// Pairs of neighbouring curves still allowed.
-    pub pairs: usize,
-    /// Common points of curves still allowed.
-    pub points: usize,
-    /// Point-in-primitive tests still allowed.
-    pub probes: usize,
-}
-
-impl Budget {
-    const PAIRS: usize = 4_000_000;
-    const POINTS: usize = 1_000_000;
-    const PROBES: usize = 100_000_000;
-
-    pub fn new() -> Self {
-        Self { pairs: Self::PAIRS, points: Self::POINTS, probes: Self::PROBES }
-    }
-
-    pub fn spend_pairs(&mut self, n: usize) -> Result<(), OutlineError> {
-        self.pairs = self.pairs.checked_sub(n).ok_or(OutlineError::TooComplex)?;
-        Ok(())
-    }
-
-    pub fn spend_points(&mut self, n: usize) -> Result<(), OutlineError> {
-        self.points = self.points.checked_sub(n).ok_or(OutlineError::TooComplex)?;
-        Ok(())
-    }
-
-    pub fn spend_probes(&mut self, n: usize) -> Result<(), OutlineError> {
-        self.probes = self.probes.checked_sub(n).ok_or(OutlineError::TooComplex)?;
-        Ok(())
-    }
-}
 
 /// What listing a face in a slab costs, in pairs.
 const FACE: usize = 2;
@@ -98,7 +63,7 @@ impl Arrangement {
         members: &[u32],
         classes: &Classes,
         tolerance: &Tolerance,
-        budget: &mut Budget,
+        budget: &mut OutlineBudget,
     ) -> Result<Self, OutlineError> {
         budget.spend_pairs(FACE * members.len())?;
         let stretches = stretches(faces, members, classes);
@@ -283,7 +248,7 @@ fn crossings(
     runs: &[Run],
     classes: &Classes,
     tolerance: &Tolerance,
-    budget: &mut Budget,
+    budget: &mut OutlineBudget,
 ) -> Result<Vec<Crossing>, OutlineError> {
     let boxes: Vec<_> = runs.iter().map(|r| r.bounds(classes, tolerance.length)).collect();
     let tree = RTree::bulk_load(

@@ -2,7 +2,8 @@
 //! just right of it. Primitives with a face along the sub-edge count by orientation, not by coordinates, so
 //! a shaft that fills its hole leaves exactly nothing.
 
-use crate::arrangement::{Along, Arrangement, Budget};
+use crate::arrangement::{Along, Arrangement};
+use crate::budget::OutlineBudget;
 use crate::classes::{Classes, Tolerance};
 use crate::section::{Face, Section};
 use crate::tree::{Scratch, Sides, Tree};
@@ -38,7 +39,7 @@ impl Slab<'_> {
         &self,
         arrangement: &Arrangement,
         scratch: &mut Scratch,
-        budget: &mut Budget,
+        budget: &mut OutlineBudget,
     ) -> Result<Vec<BoundaryEdge>, OutlineError> {
         let index = self.index();
         let (mut given, mut active) = (Vec::new(), Vec::new());

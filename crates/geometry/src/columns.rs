@@ -4,27 +4,43 @@
 //! second moments change by less than the accuracy asked for, or the work is spent.
 
 use crate::moments::Moments;
-use crate::tree::{Scratch, Sides, Tree};
+use crate::tree::{Tree, Walk};
 use crate::{Bounds3, Primitive, Rigid3, Shape, Vec3};
 
 /// Change from one grid to the next, relative to the largest moment, that ends the doubling.
 const ACCURACY: f64 = 1e-4;
-/// Column-primitive pairs that may be tried in all.
-const WORK: usize = 60_000_000;
+/// Columns along each side of the first grid, if the work allows them; and of the smallest and the largest grid.
 const FIRST_GRID: usize = 64;
+const LEAST_GRID: usize = 8;
 const LAST_GRID: usize = 1024;
+/// Boxes passed by, and nodes of the set expression visited, that count as one unit of work.
+const BOXES: usize = 16;
+const NODES: usize = 8;
 
-/// Moments about the middle of `bounds`, and their estimated relative error.
-pub(crate) fn integrate(primitives: &[Primitive], tree: &Tree, bounds: &Bounds3) -> (Moments, f64) {
-    let solids: Vec<_> = tree.primitives().map(|i| Body::of(i, &primitives[i as usize])).collect();
-    let mut columns = Columns { tree, bounds, solids, scratch: Scratch::default(), spent: 0 };
-    let (mut n, mut error) = (FIRST_GRID, 1.0);
-    let mut moments = columns.grid(n);
-    while error > ACCURACY && n < LAST_GRID && columns.spent.saturating_mul(5) < WORK {
+/// Moments about the middle of `bounds`, and their estimated relative error. One unit of `work` is one primitive
+/// met by one column: about 60 nanoseconds. Two grids of [`LEAST_GRID`] are made in any case.
+pub(crate) fn integrate(
+    primitives: &[Primitive],
+    tree: &Tree,
+    bounds: &Bounds3,
+    work: usize,
+) -> (Moments, f64) {
+    let solids: Vec<_> = tree.primitives().map(|i| Body::of(i, &primitives[i as usize], tree)).collect();
+    // What the columns of one grid cost at most, each meeting everything.
+    let affordable = |n: usize| n * n * (solids.len() + 1) * 5 <= work;
+    let mut n = LEAST_GRID;
+    while n < FIRST_GRID && affordable(2 * n) {
+        n *= 2;
+    }
+    let mut columns =
+        Columns { bounds, solids, walk: Walk::new(tree), row: Vec::new(), walls: Vec::new(), spent: 0 };
+    let (mut error, mut moments) = (1.0, columns.grid(n));
+    let mut first = true;
+    while first || (error > ACCURACY && n < LAST_GRID && columns.spent.saturating_mul(5) < work) {
         n *= 2;
         let finer = columns.grid(n);
         error = change(&moments, &finer);
-        moments = finer;
+        (moments, first) = (finer, false);
     }
     (moments, error)
 }
@@ -37,10 +53,13 @@ fn change(a: &Moments, b: &Moments) -> f64 {
 }
 
 struct Columns<'a> {
-    tree: &'a Tree,
     bounds: &'a Bounds3,
-    solids: Vec<Body>,
-    scratch: Scratch,
+    solids: Vec<Body<'a>>,
+    walk: Walk<'a>,
+    /// The solids that the row at hand may meet.
+    row: Vec<u32>,
+    /// Where the column at hand enters or leaves which solid.
+    walls: Vec<(f64, u32)>,
     spent: usize,
 }
 
@@ -52,12 +71,13 @@ impl Columns<'_> {
         let mut total = Moments::default();
         for i in 0..n {
             let x = b.min[0] + (i as f64 + 0.5) * step[0];
-            let row: Vec<_> =
-                self.solids.iter().filter(|s| s.bounds.min[0] < x && x < s.bounds.max[0]).copied().collect();
+            let near = |s: &Body| s.bounds.min[0] < x && x < s.bounds.max[0];
+            self.row.clear();
+            self.row.extend((0u32..).zip(&self.solids).filter(|(_, s)| near(s)).map(|(k, _)| k));
             let mut sum = Moments::default();
             for j in 0..n {
                 let y = b.min[1] + (j as f64 + 0.5) * step[1];
-                self.column(x, y, &row, &mut sum);
+                self.column(x, y, &mut sum);
             }
             total.add(&sum);
         }
@@ -68,39 +88,43 @@ impl Columns<'_> {
         total
     }
 
-    fn column(&mut self, x: f64, y: f64, row: &[Body], sum: &mut Moments) {
-        self.spent += row.len().max(1);
-        let near = row.iter().filter(|s| s.bounds.min[1] < y && y < s.bounds.max[1]);
-        let hit = |s: &Body| Some((s.index, s.vertical(x, y)?));
-        let spans: Vec<(u32, [f64; 2])> = near.filter_map(hit).collect();
-        let mut stops: Vec<f64> = spans.iter().flat_map(|s| s.1).collect();
-        stops.sort_by(f64::total_cmp);
-        let c = [0, 1, 2].map(|k| 0.5 * (self.bounds.min[k] + self.bounds.max[k]));
-        let point = Moments { zeroth: 1.0, ..Moments::default() }.moved([x - c[0], y - c[1], 0.0]);
-        for w in stops.windows(2).filter(|w| w[0] < w[1]) {
-            let z = 0.5 * (w[0] + w[1]);
-            let inside = spans.iter().filter(|s| s.1[0] < z && z < s.1[1]);
-            let given: Vec<_> = inside.map(|s| (s.0, Sides::BOTH)).collect();
-            if self.tree.evaluate(&given, &mut self.scratch, &mut Vec::new()).left {
-                sum.add(&point.extruded(w[0] - c[2], w[1] - c[2]));
+    fn column(&mut self, x: f64, y: f64, sum: &mut Moments) {
+        let Self { bounds, solids, walk, row, walls, spent } = self;
+        walls.clear();
+        for &k in row.iter() {
+            let s = &solids[k as usize];
+            if s.bounds.min[1] < y && y < s.bounds.max[1] {
+                walls.extend(s.vertical(x, y).into_iter().flatten().map(|z| (z, k)));
+                *spent += 1;
             }
         }
+        walls.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let c = [0, 1, 2].map(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
+        let point = Moments { zeroth: 1.0, ..Moments::default() }.moved([x - c[0], y - c[1], 0.0]);
+        let mut visited = 0;
+        for (i, &(z, k)) in walls.iter().enumerate() {
+            visited += walk.pass(solids[k as usize].leaves);
+            let next = walls.get(i + 1).map_or(z, |w| w.0);
+            if z < next && walk.inside() {
+                sum.add(&point.extruded(z - c[2], next - c[2]));
+            }
+        }
+        *spent += 1 + row.len() / BOXES + visited / NODES;
     }
 }
 
 /// A primitive, its box and the way into its own coordinates.
-#[derive(Clone, Copy)]
-struct Body {
-    index: u32,
+struct Body<'a> {
+    leaves: &'a [u32],
     bounds: Bounds3,
     shape: Shape,
     local_from_machine: Rigid3,
 }
 
-impl Body {
-    fn of(index: u32, primitive: &Primitive) -> Self {
+impl<'a> Body<'a> {
+    fn of(index: u32, primitive: &Primitive, tree: &'a Tree) -> Self {
         Self {
-            index,
+            leaves: tree.leaves_of(index),
             bounds: Bounds3::of(primitive, &Rigid3::identity()),
             shape: primitive.shape,
             local_from_machine: primitive.machine_from_local.inverse(),
@@ -186,6 +210,7 @@ fn quadric(span: Option<[f64; 2]>, [a, b, c]: [f64; 3]) -> Option<[f64; 2]> {
         };
         w[0] < w[1] && (a * t + 2.0 * b) * t + c <= 0.0
     };
-    let kept: Vec<_> = stops.windows(2).filter(inside).collect();
-    Some([kept.first()?[0], kept.last()?[1]])
+    let first = stops.windows(2).find(inside)?;
+    let last = stops.windows(2).rfind(inside)?;
+    Some([first[0], last[1]])
 }

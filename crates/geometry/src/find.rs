@@ -1,6 +1,7 @@
 //! Finds an outline recipe: slabs between caps, a planar boolean in each, equal neighbours joined.
 
-use crate::arrangement::{Arrangement, Budget};
+use crate::arrangement::Arrangement;
+use crate::budget::OutlineBudget;
 use crate::chain::{Chainer, RawCorner, RawEdge, RawLoop};
 use crate::classes::{Classes, Tolerance};
 use crate::classify::Slab;
@@ -8,7 +9,7 @@ use crate::recipe::{Corner, EdgeRecipe, LayerRecipe, LoopRecipe};
 use crate::section::{Face, Section};
 use crate::tree::{Scratch, Tree};
 use crate::{Bounds3, Csg, CurveId, OutlineError, OutlineRecipe, Primitive, Rigid3, Root, Turn, Vec2};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What counts as coincident, relative to the part's size; the wider ones are tried where features so close
 /// to the tolerance give a contradictory boundary.
@@ -33,21 +34,34 @@ impl OutlineRecipe {
         csg: &Csg,
         plane_from_machine: &Rigid3,
     ) -> Result<Self, OutlineError> {
-        Self::find_at_scale(primitives, csg, plane_from_machine, 0.0)
+        Self::find_within(primitives, csg, plane_from_machine, &mut OutlineBudget::default())
     }
 
-    /// As [`OutlineRecipe::find`], with tolerances relative to at least `size` (file's length).
+    /// As [`OutlineRecipe::find`], for one of several outlines that share an allowance of work.
+    ///
+    /// # Errors
+    /// As [`OutlineRecipe::find`].
+    pub fn find_within(
+        primitives: &[Primitive],
+        csg: &Csg,
+        plane_from_machine: &Rigid3,
+        budget: &mut OutlineBudget,
+    ) -> Result<Self, OutlineError> {
+        Self::find_at_scale(primitives, csg, plane_from_machine, 0.0, budget)
+    }
+
+    /// As [`OutlineRecipe::find_within`], with tolerances relative to at least `size` (file's length).
     pub(crate) fn find_at_scale(
         primitives: &[Primitive],
         csg: &Csg,
         plane_from_machine: &Rigid3,
         size: f64,
+        budget: &mut OutlineBudget,
     ) -> Result<Self, OutlineError> {
         let tree = Tree::new(csg).ok_or(OutlineError::Malformed { primitive: None })?;
         let boxes = boxes(primitives, &tree, plane_from_machine)?;
-        let bounds = tree.bounds(|i| boxes[i as usize]);
+        let bounds = tree.bounds(|i| boxes[&i]);
         let mut outcome = Ok(Vec::new());
-        let mut budget = Budget::new();
         for relative in COINCIDENT {
             if bounds.is_empty() {
                 break;
@@ -56,9 +70,9 @@ impl OutlineRecipe {
             let center = Vec2::new(bounds.min[0] + bounds.max[0], bounds.min[1] + bounds.max[1]) * 0.5;
             let tolerance = Tolerance { length, angle: length / bounds.diagonal().max(size), center };
             let mut tree = tree.clone();
-            tree.prune(|i| boxes[i as usize], length);
+            tree.prune(|i| boxes[&i], length);
             outcome =
-                Finder { primitives, plane: plane_from_machine, tree, tolerance, bounds }.layers(&mut budget);
+                Finder { primitives, plane: plane_from_machine, tree, tolerance, bounds }.layers(budget);
             if outcome != Err(OutlineError::Degenerate) {
                 break;
             }
@@ -67,15 +81,18 @@ impl OutlineRecipe {
     }
 }
 
-/// Boxes of all primitives used (of the others empty), after checking their numbers.
-fn boxes(primitives: &[Primitive], tree: &Tree, plane: &Rigid3) -> Result<Vec<Bounds3>, OutlineError> {
-    let mut boxes = vec![Bounds3::EMPTY; primitives.len()];
-    for i in tree.primitives() {
+/// Boxes of all primitives used, after checking their numbers.
+fn boxes(
+    primitives: &[Primitive],
+    tree: &Tree,
+    plane: &Rigid3,
+) -> Result<BTreeMap<u32, Bounds3>, OutlineError> {
+    let of = |i: u32| {
         let known = primitives.get(i as usize).map(|p| Bounds3::of(p, plane));
         let usable = known.filter(|b| b.diagonal().is_finite() && b.reach().is_finite() && !b.is_empty());
-        boxes[i as usize] = usable.ok_or(OutlineError::Malformed { primitive: Some(i) })?;
-    }
-    Ok(boxes)
+        Ok((i, usable.ok_or(OutlineError::Malformed { primitive: Some(i) })?))
+    };
+    tree.primitives().map(of).collect()
 }
 
 /// One attempt at one tolerance.
@@ -106,7 +123,7 @@ struct Sections {
 }
 
 impl Finder<'_> {
-    fn layers(&self, budget: &mut Budget) -> Result<Vec<LayerRecipe>, OutlineError> {
+    fn layers(&self, budget: &mut OutlineBudget) -> Result<Vec<LayerRecipe>, OutlineError> {
         let sections = self.sections()?;
         let levels = levels(&sections.list, self.tolerance.length);
         let raw = self.raw_layers(&sections, &levels, budget)?;
@@ -140,7 +157,7 @@ impl Finder<'_> {
         &self,
         all: &Sections,
         levels: &[Level],
-        budget: &mut Budget,
+        budget: &mut OutlineBudget,
     ) -> Result<Vec<RawLayer>, OutlineError> {
         let mut scratch = Scratch::default();
         let mut layers: Vec<RawLayer> = Vec::new();
@@ -168,7 +185,7 @@ impl Finder<'_> {
         all: &Sections,
         z: f64,
         scratch: &mut Scratch,
-        budget: &mut Budget,
+        budget: &mut OutlineBudget,
     ) -> Result<Vec<RawLoop>, OutlineError> {
         let inside = |i: &usize| all.list[*i].z[0] < z && z < all.list[*i].z[1];
         let here: Vec<usize> = (0..all.list.len()).filter(inside).collect();

@@ -2,6 +2,7 @@
 
 mod arrangement;
 mod bounds;
+mod budget;
 mod chain;
 mod classes;
 mod classify;
@@ -23,10 +24,11 @@ mod tree;
 mod vector;
 
 pub use bounds::Bounds3;
+pub use budget::OutlineBudget;
 pub use curve::{Curve, Root};
-pub use mass::{MassProperties, mass_properties};
+pub use mass::{MASS_WORK, MassProperties, mass_properties, mass_properties_within};
 pub use outline::{CurveId, Edge, Layer, Loop, Outline, Segment, Turn};
-pub use overlap::{Overlap, Part, overlap};
+pub use overlap::{Overlap, Part, overlap, overlap_within};
 pub use recipe::{Corner, EdgeRecipe, LayerRecipe, LoopRecipe, OutlineError, OutlineRecipe};
 pub use rigid::{Axis, Rigid3};
 pub use scalar::Scalar;

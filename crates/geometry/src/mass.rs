@@ -3,7 +3,7 @@
 use crate::columns::integrate;
 use crate::moments::Moments;
 use crate::tree::Tree;
-use crate::{Bounds3, Csg, OutlineError, OutlineRecipe, Primitive, Rigid3, Vec2, Vec3};
+use crate::{Bounds3, Csg, OutlineBudget, OutlineError, OutlineRecipe, Primitive, Rigid3, Vec2, Vec3};
 
 /// Mass properties of a part of unit density, in powers of the file's length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +38,30 @@ impl MassProperties {
 /// # Errors
 /// [`OutlineError::Malformed`] only.
 pub fn mass_properties(primitives: &[Primitive], csg: &Csg) -> Result<MassProperties, OutlineError> {
+    mass_properties_within(primitives, csg, MASS_WORK, &mut OutlineBudget::default())
+}
+
+/// What [`mass_properties`] spends on a numerical integration, in primitives met by columns: half a second at most.
+pub const MASS_WORK: usize = 8_000_000;
+
+/// As [`mass_properties`], with at most `work` spent on a numerical integration, which is made where the outlines
+/// tried cost more than `budget`: with less the error grows.
+///
+/// # Errors
+/// As [`mass_properties`].
+pub fn mass_properties_within(
+    primitives: &[Primitive],
+    csg: &Csg,
+    work: usize,
+    budget: &mut OutlineBudget,
+) -> Result<MassProperties, OutlineError> {
     let tree = Tree::new(csg).ok_or(OutlineError::Malformed { primitive: None })?;
     let absent = tree.primitives().find(|&i| primitives.get(i as usize).is_none());
     if absent.is_some() {
         return Err(OutlineError::Malformed { primitive: absent });
     }
     for plane in planes(primitives, &tree) {
-        match OutlineRecipe::find(primitives, csg, &plane) {
+        match OutlineRecipe::find_within(primitives, csg, &plane, budget) {
             Ok(recipe) => return Ok(of_prism(&recipe, primitives, &plane)),
             Err(error @ OutlineError::Malformed { .. }) => return Err(error),
             Err(_) => {}
@@ -54,7 +71,7 @@ pub fn mass_properties(primitives: &[Primitive], csg: &Csg) -> Result<MassProper
     if bounds.is_empty() {
         return Ok(finish(&Moments::default(), Vec3::new(0.0, 0.0, 0.0), 0.0));
     }
-    let (moments, error) = integrate(primitives, &tree, &bounds);
+    let (moments, error) = integrate(primitives, &tree, &bounds, work);
     let middle = [0, 1, 2].map(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
     Ok(finish(&moments, Vec3::new(middle[0], middle[1], middle[2]), error))
 }

@@ -60,8 +60,8 @@ pub struct OutlineRecipe {
 pub enum OutlineError {
     /// A primitive that matters is no prism along the plane's normal.
     NotPrismatic { primitive: u32, shape: &'static str },
-    /// Curves cross each other at more than a million points, or more than four million pairs come near
-    /// each other, counted over all layers.
+    /// Curves cross each other at more points, or more of them lie over and beside each other, than the
+    /// [`OutlineBudget`](crate::OutlineBudget) allows; counted over all layers.
     TooComplex,
     /// The set expression is not well formed, or a primitive is missing or not made of finite numbers.
     Malformed { primitive: Option<u32> },

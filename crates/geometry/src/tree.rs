@@ -32,6 +32,17 @@ struct Node {
     operands: u32,
 }
 
+impl Node {
+    /// Its membership, from the numbers of operands that hold the point: those that add, and those taken away.
+    fn holds(&self, [kept, removed]: [u32; 2]) -> bool {
+        match self.op {
+            CsgOp::Intersection => kept == self.operands,
+            CsgOp::Difference => kept > 0 && removed == 0,
+            _ => kept > 0,
+        }
+    }
+}
+
 /// Nodes ordered so that parents come before their operands; node 0 is the whole.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
@@ -68,6 +79,11 @@ impl Tree {
     /// The primitives that can matter, in ascending order.
     pub fn primitives(&self) -> impl Iterator<Item = u32> + '_ {
         self.leaves.keys().copied()
+    }
+
+    /// The leaves of one primitive.
+    pub fn leaves_of(&self, primitive: u32) -> &[u32] {
+        self.leaves.get(&primitive).map_or(&[], |l| l)
     }
 
     /// A box about every node.
@@ -119,7 +135,7 @@ impl Tree {
         active.clear();
         s.begin(self.nodes.len());
         for &(primitive, sides) in given {
-            for &leaf in self.leaves.get(&primitive).map_or(&[][..], |l| l) {
+            for &leaf in self.leaves_of(primitive) {
                 s.settle(self, leaf, sides);
                 if sides.differ() {
                     s.varying.push((leaf, primitive));
@@ -188,12 +204,7 @@ impl Scratch {
 
     fn combine(&self, node: &Node, n: u32) -> Sides {
         let c = self.counts[n as usize];
-        let one = |kept: u32, removed: u32| match node.op {
-            CsgOp::Intersection => kept == node.operands,
-            CsgOp::Difference => kept > 0 && removed == 0,
-            _ => kept > 0,
-        };
-        Sides { left: one(c[0], c[2]), right: one(c[1], c[3]) }
+        Sides { left: node.holds([c[0], c[2]]), right: node.holds([c[1], c[3]]) }
     }
 
     /// Records a node's value and hands it to the parent.
@@ -216,6 +227,50 @@ impl Scratch {
         let base = if node.removed { 2 } else { 0 };
         self.counts[up][base] += u32::from(sides.left);
         self.counts[up][base + 1] += u32::from(sides.right);
+    }
+}
+
+/// The whole's membership along a way that starts outside everything, kept up to date wall by wall: only nodes that
+/// change are visited.
+pub(crate) struct Walk<'a> {
+    tree: &'a Tree,
+    inside: Vec<bool>,
+    /// Operands of every node that hold the point: those that add, and those taken away.
+    held: Vec<[u32; 2]>,
+}
+
+impl<'a> Walk<'a> {
+    pub fn new(tree: &'a Tree) -> Self {
+        let nodes = tree.nodes.len();
+        Self { tree, inside: vec![false; nodes], held: vec![[0; 2]; nodes] }
+    }
+
+    /// Passes the wall of a primitive, given its leaves; returns the number of nodes visited.
+    pub fn pass(&mut self, leaves: &[u32]) -> usize {
+        leaves.iter().map(|&leaf| self.flip(leaf as usize)).sum()
+    }
+
+    /// Is the point inside the whole?
+    pub fn inside(&self) -> bool {
+        self.inside.first() == Some(&true)
+    }
+
+    fn flip(&mut self, mut n: usize) -> usize {
+        let mut visited = 1;
+        loop {
+            self.inside[n] = !self.inside[n];
+            let node = &self.tree.nodes[n];
+            if n == 0 {
+                return visited;
+            }
+            let held = &mut self.held[node.parent as usize][usize::from(node.removed)];
+            *held = if self.inside[n] { *held + 1 } else { *held - 1 };
+            n = node.parent as usize;
+            visited += 1;
+            if self.inside[n] == self.tree.nodes[n].holds(self.held[n]) {
+                return visited;
+            }
+        }
     }
 }
 
@@ -298,8 +353,9 @@ mod tests {
     }
 
     #[test]
-    fn sparse_evaluation_agrees_with_the_postfix_program() {
+    fn evaluation_agrees_with_the_postfix_program() {
         let (mut scratch, mut active, mut stack) = (Scratch::default(), Vec::new(), Vec::new());
+        let mut walked = Vec::new();
         for code in 0..3_000 {
             let csg = expression(code * 7919, 6);
             let tree = Tree::new(&csg).expect("well formed");
@@ -312,6 +368,13 @@ mod tests {
                 assert_eq!(found.right, csg.contains(|i| side(i).right, &mut stack), "{csg:?}");
                 assert_eq!(active.is_empty(), !found.differ());
                 assert!(active.iter().all(|&i| side(i).differ()));
+                let mut walk = Walk::new(&tree);
+                for pick in [|s: Sides| s.left, |s: Sides| s.left != s.right] {
+                    (0..6).filter(|&i| pick(side(i))).for_each(|i| _ = walk.pass(tree.leaves_of(i)));
+                    walked.push(walk.inside());
+                }
+                assert_eq!([found.left, found.right][..], walked);
+                walked.clear();
             }
         }
     }

@@ -1,21 +1,32 @@
 //! `inspect`: parts, pairs with their evidence, subsystems, what may touch.
 
+use crate::joints::joints_json;
 use crate::words::{clean, vec3};
 use mainspring_mechanism::{Mechanism, Pair, PairKind, Subsystem};
 use mainspring_model::{Machine, Parameter};
 use serde_json::{Value, json};
 
+/// Pairs of parts listed that may touch: more are of no use to a reader, and take a gibibyte.
+const MAX_INTERACTIONS: usize = 200_000;
+
 /// The object that `inspect --json` prints.
 pub fn inspect_json(m: &Mechanism) -> Value {
     let name = |i: usize| m.parts[i].name.clone();
     let names = |(a, b): (usize, usize)| json!([name(a), name(b)]);
-    let mut interactions: Vec<[String; 2]> =
-        m.interactions().iter().map(|&(a, b)| sorted(name(a), name(b))).collect();
+    let found = m.interactions();
+    let listed = found.iter().take(MAX_INTERACTIONS);
+    let mut interactions: Vec<[String; 2]> = listed.map(|&(a, b)| sorted(name(a), name(b))).collect();
     interactions.sort();
+    let mut warnings = warnings(m);
+    if found.len() > MAX_INTERACTIONS {
+        warnings
+            .push(format!("only the first {MAX_INTERACTIONS} of {} interactions are listed", found.len()));
+    }
     json!({
         "parts": m.parts.iter().map(|p| &p.name).collect::<Vec<_>>(),
         "frame": name(m.frame),
         "pairs": m.pairs.iter().map(|p| pair(m, p)).collect::<Vec<_>>(),
+        "joints": joints_json(m),
         "subsystems": m.subsystems.iter().map(|s| subsystem(m, s)).collect::<Vec<_>>(),
         "state_variables": m.state_variables(),
         "interactions": interactions,
@@ -25,8 +36,10 @@ pub fn inspect_json(m: &Mechanism) -> Value {
             "mobility": c.mobility,
         })).collect::<Vec<_>>(),
         "mobility": m.mobility,
-        "warnings": warnings(m),
+        "warnings": warnings,
         "plane": plane(m),
+        "gravity": vec3(m.gravity),
+        "contact": {"E": m.contact.e, "D": m.contact.d, "M": m.contact.m},
         "units": {"length": null, "time": null, "angle": "rad"},
     })
 }
@@ -77,15 +90,15 @@ fn subsystem(m: &Mechanism, s: &Subsystem) -> Value {
     })
 }
 
-/// Warnings as on standard error, with their place where they have one.
+/// Warnings as on standard error. One without a place of its own stands where its first moving part does; one
+/// about the whole machine, at the frame.
 fn warnings(m: &Mechanism) -> Vec<String> {
     m.warnings
         .iter()
-        .map(|w| match w.place {
-            Some(place) => {
-                m.machine.error(place, w.message.clone()).to_string().replacen(": error: ", ": warning: ", 1)
-            }
-            None => w.message.clone(),
+        .map(|w| {
+            let part = w.parts.iter().copied().find(|p| *p != m.frame).unwrap_or(m.frame);
+            let place = w.place.unwrap_or(m.parts[part].place);
+            m.machine.error(place, w.message.clone()).to_string().replacen(": error: ", ": warning: ", 1)
         })
         .collect()
 }

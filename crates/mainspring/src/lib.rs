@@ -3,6 +3,8 @@
 mod contacts;
 mod drawing;
 mod inspect;
+mod joints;
+mod options;
 mod prediction;
 mod sentences;
 mod simulation;

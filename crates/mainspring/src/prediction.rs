@@ -1,5 +1,6 @@
 //! `predict`: what the machine will do, and the stretch of motion it was read from.
 
+use crate::options::check_prediction;
 use crate::sentences::sentences;
 use crate::simulation::{SimulationOptions, SimulationResult};
 use crate::words::clean;
@@ -28,6 +29,7 @@ pub fn predict(
     options: &PredictOptions,
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<PredictionResult, Error> {
+    check_prediction(options)?;
     let system = Arc::new(mechanism.system()?);
     let source = system.direct_search();
     let found = mainspring_behavior::predict(&system, &source, options, progress);
@@ -163,5 +165,6 @@ fn reason_word(reason: NoPattern) -> &'static str {
         NoPattern::TooManyMinima => "max_minima",
         NoPattern::TooLong => "max_time",
         NoPattern::StepLimit => "step_limit",
+        NoPattern::Jammed => "jammed",
     }
 }

@@ -1,5 +1,6 @@
 //! The answer in plain words, angles in degrees.
 
+use crate::contacts::bodies;
 use crate::prediction::PredictionResult;
 use crate::words::{list, number};
 use mainspring_behavior::{NoPattern, Outcome, Pattern};
@@ -67,8 +68,13 @@ fn rests(p: &PredictionResult, t: f64, held: &[Closed], jammed: bool) -> Vec<Str
     let mut pairs: Vec<String> = held
         .iter()
         .map(|c| {
-            let (a, b) = system.interactions[c.candidate.id.interaction as usize].bodies;
-            format!("{} against {}", system.bodies[a].name, system.bodies[b].name)
+            let (a, b) = bodies(system, c.candidate.id);
+            let (a, b) = (&system.bodies[a].name, &system.bodies[b].name);
+            if c.candidate.id.stop().is_some() {
+                format!("{a} on its stop against {b}")
+            } else {
+                format!("{a} against {b}")
+            }
         })
         .collect();
     pairs.dedup();
@@ -89,6 +95,9 @@ fn no_pattern(p: &PredictionResult, reason: NoPattern) -> String {
             format!("No pattern found within the bound on kinetic-energy minima ({t} s): raise --max-minima.")
         }
         NoPattern::TooLong => format!("No pattern found within {t} s: raise --max-time."),
+        NoPattern::Jammed => {
+            format!("No pattern: after {t} s a drive runs against parts that cannot give way.")
+        }
         NoPattern::StepLimit => format!("No pattern found: the bound on steps was met at {t} s."),
     }
 }

@@ -1,8 +1,9 @@
 //! `simulate`: a run to a given time, with its dense motion.
 
 use crate::contacts::contacts_json;
+use crate::options::check_simulation;
 use crate::words::{by_part, clean};
-use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at};
+use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at, kinetic};
 use mainspring_mechanism::{Mechanism, System};
 use mainspring_model::Error;
 use serde_json::{Map, Value, json};
@@ -50,12 +51,13 @@ pub struct SimulationResult {
 /// Runs a mechanism from its initial state. `progress` is told the time and may answer false.
 ///
 /// # Errors
-/// What keeps a machine from being simulated: see `Mechanism::coordinates`.
+/// Options out of their range, and what keeps a machine from being simulated: see `Mechanism::coordinates`.
 pub fn simulate(
     mechanism: &Mechanism,
     options: &SimulationOptions,
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<SimulationResult, Error> {
+    check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
     let source = system.direct_search();
     let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
@@ -98,6 +100,16 @@ impl SimulationResult {
         &self.run.trajectory.times
     }
 
+    /// Is the motion known at time `t`? Within the run, and for ever after where it ended at rest.
+    pub fn knows(&self, t: f64) -> bool {
+        t >= 0.0 && (t <= self.run.t || (self.run.status == Status::AtRest && t.is_finite()))
+    }
+
+    /// Where the run ended.
+    pub fn end(&self) -> f64 {
+        self.run.t
+    }
+
     /// Positions and velocities of the moving parts at time `t`, dense (just after an event at exactly `t`).
     pub fn at(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
         self.movers
@@ -107,6 +119,13 @@ impl SimulationResult {
                 (state.q * m.ratio, state.v * m.ratio)
             })
             .unzip()
+    }
+
+    /// Kinetic energy of everything that moves at time `t`.
+    pub fn kinetic_energy(&self, t: f64) -> f64 {
+        let states = (0..self.system.coordinates.len()).map(|i| self.run.trajectory.state(i, t));
+        let (q, v): (Vec<f64>, Vec<f64>) = states.map(|s| (s.q, s.v)).unzip();
+        kinetic(&self.system, &q, &v)
     }
 
     /// Values of parts from values of coordinates.
@@ -122,7 +141,7 @@ impl SimulationResult {
         let modes = &self.run.modes;
         let mode = modes.partition_point(|m| m.from <= t).checked_sub(1).map(|k| &modes[k]);
         let source = self.system.direct_search();
-        let closed = mode.map_or(vec![], |m| forces_at(&self.system, &source, &m.closed, &q, &v));
+        let closed = mode.map_or(vec![], |m| forces_at(&self.system, &source, m, t, (&q, &v)));
         Value::Array(contacts_json(&self.system, &closed, &q))
     }
 
@@ -171,6 +190,7 @@ impl SimulationResult {
         json!({
             "initial": e.initial,
             "final": e.last,
+            "work": e.work,
             "friction": e.friction,
             "impacts": e.impacts,
             "kinetic_max": e.kinetic_max,
@@ -187,13 +207,17 @@ impl SimulationResult {
         };
         let together: Vec<Vec<String>> =
             e.moving_together.iter().map(|g| g.iter().map(|&i| name(i)).collect()).collect();
-        json!({
+        let mut event = json!({
             "t": e.t,
             "kind": kind,
             "parts": [name(e.bodies.0), name(e.bodies.1)],
             "impulse": clean(e.impulse),
             "moving_together": together,
-        })
+        });
+        if let Some(stop) = e.contact.stop().map(|k| &self.system.forces.stops[k]) {
+            event["stop"] = json!(if stop.upper { "upper" } else { "lower" });
+        }
+        event
     }
 
     /// Contacts with their forces just after each instant at which something changed, and at the end.
@@ -219,6 +243,7 @@ fn status_word(status: Status) -> &'static str {
         Status::Complete => "complete",
         Status::AtRest => "at_rest",
         Status::StepLimit => "step_limit",
+        Status::Jammed => "jammed",
         Status::Stopped => "stopped",
     }
 }
@@ -226,6 +251,9 @@ fn status_word(status: Status) -> &'static str {
 fn advice(status: Status) -> Option<&'static str> {
     match status {
         Status::Complete | Status::AtRest | Status::Stopped => None,
+        Status::Jammed => Some(
+            "a drive runs against parts that cannot give way: change its motion, or what stands in its way",
+        ),
         Status::StepLimit => {
             Some("the bound on steps was met: ask for a shorter time, a looser tolerance, or more steps")
         }

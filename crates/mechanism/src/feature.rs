@@ -278,6 +278,22 @@ fn number_occurrences(found: &mut [Feature]) {
 }
 
 impl FeatureShape {
+    /// The centre of a round feature, the start of an edge.
+    pub fn anchor(&self) -> Vec2 {
+        match *self {
+            FeatureShape::Edge { from, .. } => from,
+            FeatureShape::Round { center, .. } | FeatureShape::Hollow { center, .. } => center,
+        }
+    }
+
+    /// The radius of a round feature, 0 for an edge.
+    pub fn radius(&self) -> f64 {
+        match *self {
+            FeatureShape::Edge { .. } => 0.0,
+            FeatureShape::Round { radius, .. } | FeatureShape::Hollow { radius, .. } => radius,
+        }
+    }
+
     /// Least and greatest distance of the feature's points from `p`: exact for edges and corners, the whole
     /// circle's for arcs.
     pub fn distances_from(&self, p: Vec2) -> (f64, f64) {

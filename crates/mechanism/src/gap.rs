@@ -130,7 +130,7 @@ fn edge_state(
     let n = edge_pose.rotate(normal);
     let offset = c - edge_pose.apply(from);
     let along = edge_pose.rotate(tangent).dot(offset);
-    let cone_margin = cone.margin(unrotate(round_pose, -n));
+    let cone_margin = cone.margin(round_pose.rotate_back(-n));
     GapState {
         gap: n.dot(offset) - radius,
         normal: if swapped { -n } else { n },
@@ -160,7 +160,7 @@ fn centers_state(a: &Feature, b: &Feature, pose_a: &Pose, pose_b: &Pose, side: f
         _ => (-u, -u),
     };
     let margin =
-        cone_a.margin(unrotate(pose_a, direction_a)).min(cone_b.margin(unrotate(pose_b, direction_b)));
+        cone_a.margin(pose_a.rotate_back(direction_a)).min(cone_b.margin(pose_b.rotate_back(direction_b)));
     GapState {
         gap: side * (distance - sum),
         normal: u * side,
@@ -182,10 +182,6 @@ fn parts(feature: &Feature) -> (Vec2, f64, &Cone, bool) {
     }
 }
 
-fn unrotate(pose: &Pose, d: Vec2) -> Vec2 {
-    Vec2::new(pose.cos * d.x + pose.sin * d.y, -pose.sin * d.x + pose.cos * d.y)
-}
-
 impl GapState {
     /// The centre carried by the second body, or the same point as the first's against an edge.
     fn partner(&self) -> Vec2 {
@@ -195,8 +191,38 @@ impl GapState {
         self.carried - self.normal * (1.0 / self.curvature)
     }
 
-    /// `G = ∂g/∂q`.
+    /// The state of a stop, which has no place and no features to run off: its gap alone.
+    pub fn of_stop(gap: f64) -> Self {
+        Self {
+            gap,
+            normal: Vec2::default(),
+            carried: Vec2::default(),
+            point: Vec2::default(),
+            edge_margin: f64::INFINITY,
+            near_end: false,
+            cone_margin: f64::INFINITY,
+            curvature: 0.0,
+            edge_first: false,
+        }
+    }
+
+    /// `G = ∂g/∂q`. Joints that carry both bodies have no part in it, exactly.
+    #[inline]
     pub fn row(&self, a: &Placed, b: &Placed) -> Row {
+        let shared = a.shared(b);
+        if shared > 0 {
+            return self.row_against(a, b, shared);
+        }
+        self.row_between(a, b)
+    }
+
+    #[cold]
+    fn row_against(&self, a: &Placed, b: &Placed, shared: usize) -> Row {
+        self.row_between(&a.carried_by(shared), &b.carried_by(shared))
+    }
+
+    #[inline]
+    fn row_between(&self, a: &Placed, b: &Placed) -> Row {
         let mut row = Row::default();
         a.add_to_row(&mut row, self.normal, self.carried, 1.0);
         b.add_to_row(&mut row, self.normal, self.partner(), -1.0);
@@ -205,11 +231,39 @@ impl GapState {
 
     /// ġ at velocities `v`.
     pub fn rate(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
+        let shared = a.shared(b);
+        if shared > 0 {
+            return self.rate_against(a, b, v, shared);
+        }
+        self.rate_between(a, b, v)
+    }
+
+    #[cold]
+    fn rate_against(&self, a: &Placed, b: &Placed, v: &[f64], shared: usize) -> f64 {
+        self.rate_between(&a.carried_by(shared), &b.carried_by(shared), v)
+    }
+
+    #[inline]
+    fn rate_between(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
         self.normal.dot(a.velocity(self.carried, v) - b.velocity(self.partner(), v))
     }
 
     /// γ = q̇ᵀ (∂²g/∂q²) q̇: the part of g̈ that joint accelerations do not cause.
     pub fn bias(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
+        let shared = a.shared(b);
+        if shared > 0 {
+            return self.bias_against(a, b, v, shared);
+        }
+        self.bias_between(a, b, v)
+    }
+
+    #[cold]
+    fn bias_against(&self, a: &Placed, b: &Placed, v: &[f64], shared: usize) -> f64 {
+        self.bias_between(&a.carried_by(shared), &b.carried_by(shared), v)
+    }
+
+    #[inline]
+    fn bias_between(&self, a: &Placed, b: &Placed, v: &[f64]) -> f64 {
         let (ma, mb) = (a.motion(self.carried, v), b.motion(self.partner(), v));
         let (velocity, bias) = (ma.velocity - mb.velocity, ma.bias - mb.bias);
         if self.curvature != 0.0 {
@@ -219,15 +273,5 @@ impl GapState {
         // Against an edge the second derivative is taken in the edge's turning frame: −2 ω × v appears.
         let turning = if self.edge_first { a.turning(v) } else { b.turning(v) };
         self.normal.dot(bias) - 2.0 * turning * self.normal.dot(velocity.perp())
-    }
-}
-
-impl GapState {
-    /// Distance of the centres of two round features; infinite against an edge.
-    pub fn distance_of_centers(&self) -> f64 {
-        if self.edge_margin.is_finite() {
-            return f64::INFINITY;
-        }
-        if self.curvature == 0.0 { 0.0 } else { 1.0 / self.curvature.abs() }
     }
 }

@@ -1,10 +1,12 @@
 //! Which bodies can ever touch, by the regions their features sweep (Gelsey 1995, Sec. 2.1.4).
 
+use crate::equations::{Coupled, coupled};
 use crate::feature::{Feature, features};
+use crate::forces::Forces;
 use crate::gap::GapKind;
 use crate::placed::MAX_CHAIN;
 use crate::source::DirectSearch;
-use crate::system::{Body, Coordinate, Motion};
+use crate::system::{Body, Coordinate, Joint, Motion};
 use crate::tree::FeatureTree;
 use mainspring_geometry::{CurveId, Vec2};
 
@@ -53,6 +55,10 @@ pub struct System {
     pub interactions: Vec<Interaction>,
     /// The machine's size in the file's length: tolerances of contact are relative to it.
     pub size: f64,
+    /// What acts beside the linear forces of coordinates.
+    pub forces: Forces,
+    /// Coordinates that do not fly in closed form: tied together by masses, or pulled by gravity as they turn.
+    pub coupled: Vec<Coupled>,
 }
 
 impl System {
@@ -74,7 +80,14 @@ impl System {
                 interactions.extend(interaction((i, j), &bodies, &features, &excluded, size));
             }
         }
-        Self { coordinates, bodies, features, interactions, size }
+        let forces = Forces::none(coordinates.len());
+        Self { coordinates, bodies, features, interactions, size, forces, coupled: vec![] }
+    }
+
+    /// The same system with more acting on it; lists by coordinate must have an entry for each.
+    pub fn with_forces(self, forces: Forces) -> Self {
+        let system = Self { forces, ..self };
+        Self { coupled: coupled(&system), ..system }
     }
 
     /// The direct search for contacts.
@@ -94,8 +107,9 @@ fn interaction(
     let (fa, fb) = (&features[pair.0], &features[pair.1]);
     let height_tolerance = 1e-9 * size;
     let usable = |f: &Feature| !is_excluded(f, excluded);
+    let shared = shared_joints(a, b);
     let swept = |body: &Body, list: &[Feature]| -> Vec<Option<Swept>> {
-        list.iter().map(|f| usable(f).then(|| Swept::new(body, f))).collect()
+        list.iter().map(|f| usable(f).then(|| Swept::new(&body.chain[shared..], f))).collect()
     };
     let (sa, sb) = (swept(a, fa), swept(b, fb));
     let meets = |i: usize, j: usize| {
@@ -109,11 +123,20 @@ fn interaction(
         return None;
     }
     let chosen_b: Vec<usize> = (0..fb.len()).filter(|&j| chosen_a.iter().any(|&i| meets(i, j))).collect();
-    let levers = (levers(a, fa, &chosen_a), levers(b, fb, &chosen_b));
-    let shares = (shares(a, fa, levers.0[0]), shares(b, fb, levers.1[0]));
+    let levers = (levers(a, shared, fa, &chosen_a), levers(b, shared, fb, &chosen_b));
+    let greatest = |levers: &[f64; MAX_CHAIN]| levers.get(shared).copied().unwrap_or(0.0);
+    let shares = (
+        shares(&a.chain[shared..], fa, greatest(&levers.0)),
+        shares(&b.chain[shared..], fb, greatest(&levers.1)),
+    );
     let trees = (FeatureTree::new(fa, chosen_a), FeatureTree::new(fb, chosen_b));
     let usable = (fa.iter().map(usable).collect(), fb.iter().map(usable).collect());
     Some(Interaction { bodies: pair, trees, levers, shares, usable, height_tolerance })
+}
+
+/// How many joints both chains begin with: these move both bodies alike, and nothing between them depends on it.
+fn shared_joints(a: &Body, b: &Body) -> usize {
+    a.chain.iter().zip(&b.chain).take_while(|(j, k)| j == k).count()
 }
 
 /// A curve is excluded when its owner or an alias is; a corner when both of its sides are.
@@ -143,9 +166,9 @@ enum Swept {
 }
 
 impl Swept {
-    fn new(body: &Body, feature: &Feature) -> Self {
+    fn new(chain: &[Joint], feature: &Feature) -> Self {
         let (center, radius) = (feature.center, feature.radius);
-        match body.chain.as_slice() {
+        match chain {
             [] => Swept::Disc { center, radius },
             [joint] => match joint.motion {
                 Motion::Turn { center: axis } => {
@@ -158,7 +181,30 @@ impl Swept {
                     Swept::Band { normal, low: at - radius, high: at + radius }
                 }
             },
-            _ => Swept::Everywhere,
+            [first, rest @ ..] => Swept::new(rest, feature).moved(&first.motion),
+        }
+    }
+
+    /// All places of the region as a joint moves it.
+    fn moved(self, motion: &Motion) -> Self {
+        match (self, motion) {
+            (Swept::Everywhere, _) | (Swept::Band { .. }, Motion::Turn { .. }) => Swept::Everywhere,
+            (Swept::Band { normal, low, high }, Motion::Slide { direction }) => {
+                let along = normal.dot(*direction).abs() <= 1e-12;
+                if along { Swept::Band { normal, low, high } } else { Swept::Everywhere }
+            }
+            (round, Motion::Turn { center: axis }) => {
+                let (c, inner, outer) = round.ring();
+                let apart = (c - *axis).norm();
+                let inner = (apart - outer).max(inner - apart).max(0.0);
+                Swept::Ring { center: *axis, inner, outer: apart + outer }
+            }
+            (round, Motion::Slide { direction }) => {
+                let (c, _, outer) = round.ring();
+                let normal = direction.perp();
+                let at = normal.dot(c);
+                Swept::Band { normal, low: at - outer, high: at + outer }
+            }
         }
     }
 
@@ -199,24 +245,30 @@ impl Swept {
     }
 }
 
-/// How far features move per unit of each joint's position: distance from the axis for a turn (through the later
-/// joints of the chain, as modelled), 1 for a slide.
-fn levers(body: &Body, features: &[Feature], chosen: &[usize]) -> [f64; MAX_CHAIN] {
+/// How far features move at most per unit of each joint's position: 1 for a slide, the distance from the axis for a
+/// turn, whatever the turns later in the chain; slides between add their own positions to it. 0 for joints that
+/// both bodies share.
+fn levers(body: &Body, shared: usize, features: &[Feature], chosen: &[usize]) -> [f64; MAX_CHAIN] {
     let mut levers = [0.0; MAX_CHAIN];
-    for (lever, joint) in levers.iter_mut().zip(&body.chain) {
-        *lever = match joint.motion {
-            Motion::Turn { center } => {
-                chosen.iter().map(|&i| features[i].shape.distances_from(center).1).fold(0.0, f64::max)
-            }
-            Motion::Slide { .. } => 1.0,
+    let mut outer: Option<(Vec2, f64)> = None;
+    for (k, joint) in body.chain.iter().enumerate().take(MAX_CHAIN).skip(shared).rev() {
+        let Motion::Turn { center } = joint.motion else {
+            levers[k] = 1.0;
+            continue;
         };
+        levers[k] = match outer {
+            Some((axis, reach)) => (axis - center).norm() + reach,
+            None => chosen.iter().map(|&i| features[i].shape.distances_from(center).1).fold(0.0, f64::max),
+        };
+        outer = Some((center, levers[k]));
     }
     levers
 }
 
-/// Lever arms of single features on a body that only turns, relative to the greatest; 1 for all others.
-fn shares(body: &Body, features: &[Feature], greatest: f64) -> Vec<f64> {
-    let share = |f: &Feature| match body.chain.as_slice() {
+/// Lever arms of single features on a body that only turns, relative to the greatest; 1 for all others. `chain` is
+/// what the other body does not share.
+fn shares(chain: &[Joint], features: &[Feature], greatest: f64) -> Vec<f64> {
+    let share = |f: &Feature| match chain {
         [joint] => match joint.motion {
             Motion::Turn { center } if greatest > 0.0 => {
                 (f.shape.distances_from(center).1 / greatest).min(1.0)

@@ -1,27 +1,45 @@
 //! From solids to a mechanism: kinematic pairs, subsystems, possible interactions, gap functions.
 
 // Contact: features, gaps, where they may close.
+mod boundary;
+mod contact_law;
 mod feature;
 mod gap;
+mod hessian;
 mod interaction;
+mod overlap;
 mod placed;
+mod relative;
 mod source;
 mod system;
 mod tree;
 
+pub use boundary::Boundary;
 pub use feature::{Cone, Feature, FeatureName, FeatureShape, features};
 pub use gap::{GapKind, GapState, gap, gap_state};
+pub use hessian::Hessian;
 pub use interaction::{Exclusion, Interaction, System};
-pub use placed::{MAX_CHAIN, MAX_ROW, Placed, PointMotion, Row};
+pub use overlap::{Overlaps, Successor, is_on};
+pub use placed::{Field, MAX_CHAIN, MAX_ROW, Placed, PointMotion, Row};
+pub use relative::{Approach, Relative, approach};
 pub use source::{Candidate, ContactId, ContactSource, DirectSearch};
 pub use system::{Body, Coordinate, Joint, Motion, Pose};
 pub use tree::{FeatureTree, Node};
+
+// Forces: drives, friction, stops, masses on chains, equations of motion.
+mod drive;
+mod equations;
+mod forces;
+
+pub use drive::{Drive, DrivePiece, Driven, Table};
+pub use equations::{Coupled, Equations, EquationsJacobian};
+pub use forces::{ContactLaw, Forces, Mass, Stop};
 
 // Kinematics: from shapes to pairs, mobility and subsystems.
 mod kinematics;
 
 pub use kinematics::{
-    AxisLine, Bounds, ClosedChain, CompileOptions, Dropped, Evidence, EvidenceKind, Freedom, JointSpring,
-    Mechanism, NearMiss, Pair, PairKind, Part, PartValue, Subsystem, Symmetry, SymmetryType, Warning,
-    WorkingPlane, canonical,
+    AxisLine, Bounds, ClosedChain, CompileOptions, Dropped, Evidence, EvidenceKind, Freedom, JointDrive,
+    JointForces, JointSpring, Mechanism, NearMiss, Pair, PairKind, Part, PartMass, PartValue, Subsystem,
+    Symmetry, SymmetryType, Warning, WorkingPlane, canonical,
 };

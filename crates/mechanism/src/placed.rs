@@ -20,6 +20,13 @@ pub struct Row {
 }
 
 impl Row {
+    /// One entry.
+    pub fn single(coordinate: usize, value: f64) -> Self {
+        let mut row = Self::default();
+        row.add(coordinate, value);
+        row
+    }
+
     /// Adds `value` at `coordinate`.
     pub fn add(&mut self, coordinate: usize, value: f64) {
         for k in 0..self.count {
@@ -37,6 +44,11 @@ impl Row {
         (0..self.count).map(|k| (self.coordinate[k], self.value[k]))
     }
 
+    /// The entry at a coordinate; 0 if there is none.
+    pub fn at(&self, coordinate: usize) -> f64 {
+        self.entries().find(|e| e.0 == coordinate).map_or(0.0, |e| e.1)
+    }
+
     /// Same coordinates with the same entries, to 1e-9 of the largest.
     pub fn is_along(&self, other: &Self) -> bool {
         let size = self.entries().map(|(_, g)| g.abs()).fold(0.0, f64::max);
@@ -46,6 +58,19 @@ impl Row {
 
     pub fn dot(&self, x: &[f64]) -> f64 {
         self.entries().map(|(i, g)| g * x[i]).sum()
+    }
+
+    /// `Σ gᵢ hᵢ / mᵢ` with another row h and weights m.
+    pub fn product(&self, other: &Self, weight: impl Fn(usize) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for (i, g) in self.entries() {
+            for (j, h) in other.entries() {
+                if i == j {
+                    sum += g * h / weight(i);
+                }
+            }
+        }
+        sum
     }
 }
 
@@ -70,15 +95,32 @@ impl<'b> Placed<'b> {
     pub fn new(body: &'b Body, q: &[f64]) -> Self {
         let mut placed =
             Self { pose: Pose::identity(), chain: &body.chain, at: [Vec2::default(); MAX_CHAIN] };
-        for (at, joint) in placed.at.iter_mut().zip(&body.chain) {
-            *at = match joint.motion {
+        for (k, joint) in body.chain.iter().enumerate().take(MAX_CHAIN) {
+            let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
+            if k == 0 {
+                (placed.at[0], placed.pose) = (joint.motion.vector(), step);
+                continue;
+            }
+            placed.at[k] = match joint.motion {
                 Motion::Turn { center } => placed.pose.apply(center),
                 Motion::Slide { direction } => placed.pose.rotate(direction),
             };
-            let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
             placed.pose = placed.pose.then_after(&step);
         }
         placed
+    }
+
+    /// How many joints both chains begin with: they move both bodies alike, and nothing between them depends on it.
+    #[inline]
+    pub fn shared(&self, other: &Self) -> usize {
+        self.chain.iter().zip(other.chain).take_while(|(j, k)| j == k).count()
+    }
+
+    /// The same place, moved only by the joints from `first` on: the motion against whatever carries these.
+    pub fn carried_by(&self, first: usize) -> Self {
+        let mut at = self.at;
+        at.rotate_left(first.min(MAX_CHAIN));
+        Self { pose: self.pose, chain: &self.chain[first..], at }
     }
 
     fn joints(&self) -> impl Iterator<Item = (&Joint, Vec2, bool)> {
@@ -98,6 +140,25 @@ impl<'b> Placed<'b> {
         self.joints().filter(|j| j.2).map(|(j, ..)| j.ratio * v[j.coordinate]).sum()
     }
 
+    /// The velocity field of the body and its rate of change, at velocities `v` and accelerations `dv` of the
+    /// coordinates.
+    pub fn field(&self, v: &[f64], dv: &[f64]) -> Field {
+        let mut field = Field::default();
+        for (j, at, turns) in self.joints() {
+            let (rate, change) = (j.ratio * v[j.coordinate], j.ratio * dv[j.coordinate]);
+            if turns {
+                let carried = field.velocity_at(at);
+                field.linear_rate = field.linear_rate - at.perp() * change - carried.perp() * rate;
+                field.turning_rate += change;
+                field.turn(at, rate);
+            } else {
+                field.linear_rate = field.linear_rate + at * change + at.perp() * (rate * field.turning);
+                field.linear = field.linear + at * rate;
+            }
+        }
+        field
+    }
+
     /// Velocity of the body's point now at `p`.
     pub fn velocity(&self, p: Vec2, v: &[f64]) -> Vec2 {
         self.joints().fold(Vec2::default(), |sum, (j, at, turns)| {
@@ -110,7 +171,7 @@ impl<'b> Placed<'b> {
     pub fn motion(&self, p: Vec2, v: &[f64]) -> PointMotion {
         let velocity = self.velocity(p, v);
         let mut bias = Vec2::default();
-        let mut carried = Carrier::default();
+        let mut carried = Field::default();
         for (j, at, turns) in self.joints() {
             let rate = j.ratio * v[j.coordinate];
             if turns {
@@ -126,14 +187,16 @@ impl<'b> Placed<'b> {
     }
 }
 
-/// Velocity field of the joints passed so far: `linear + turning · p^⊥`.
-#[derive(Default)]
-struct Carrier {
-    linear: Vec2,
-    turning: f64,
+/// A velocity field `linear + turning · p^⊥`, with its rate of change at fixed places.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Field {
+    pub linear: Vec2,
+    pub turning: f64,
+    pub linear_rate: Vec2,
+    pub turning_rate: f64,
 }
 
-impl Carrier {
+impl Field {
     fn velocity_at(&self, p: Vec2) -> Vec2 {
         self.linear + p.perp() * self.turning
     }

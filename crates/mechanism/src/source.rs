@@ -3,6 +3,7 @@
 use crate::feature::{Feature, FeatureShape};
 use crate::gap::GapKind;
 use crate::interaction::Interaction;
+use crate::relative::Relative;
 use crate::system::Pose;
 use mainspring_geometry::Vec2;
 
@@ -13,6 +14,21 @@ pub struct ContactId {
     pub interaction: u32,
     pub first: u32,
     pub second: u32,
+}
+
+/// In place of the interaction of a contact: a stop of a joint, which `first` tells by its index.
+const STOP: u32 = u32::MAX;
+
+impl ContactId {
+    /// The identity of a stop, an index into [`crate::Forces::stops`].
+    pub fn of_stop(index: usize) -> Self {
+        Self { interaction: STOP, first: index as u32, second: 0 }
+    }
+
+    /// The index of the stop that this is; None for a contact of two bodies.
+    pub fn stop(self) -> Option<usize> {
+        (self.interaction == STOP).then_some(self.first as usize)
+    }
 }
 
 /// A contact that may come within reach.
@@ -46,7 +62,7 @@ impl ContactSource for DirectSearch<'_> {
         let (fa, fb) = (&self.features[pair.bodies.0], &self.features[pair.bodies.1]);
         let start = found.len();
         // Poses relative to the second body: its own nodes then need no motion.
-        let relative = relative_pose(a, b);
+        let relative = Relative::pose(a, b);
         let mut pending = vec![(0usize, 0usize)];
         if pair.trees.0.nodes.is_empty() || pair.trees.1.nodes.is_empty() {
             pending.clear();
@@ -77,24 +93,11 @@ impl ContactSource for DirectSearch<'_> {
     }
 }
 
-/// second_from_first: the first body's pose seen from the second body.
-fn relative_pose(a: &Pose, b: &Pose) -> Pose {
-    let inverse = Pose { cos: b.cos, sin: -b.sin, shift: Vec2::default() };
-    let inverse = Pose { shift: -inverse.rotate(b.shift), ..inverse };
-    inverse.then_after(a)
-}
-
 /// A lower bound of the distance between two features: exact between a round feature and an edge.
 fn feature_distance(kind: GapKind, a: &Feature, b: &Feature, relative: &Pose) -> f64 {
     let discs = (relative.apply(a.center) - b.center).norm() - a.radius - b.radius;
-    let circle = |f: &Feature| match f.shape {
-        FeatureShape::Round { center, radius, .. } | FeatureShape::Hollow { center, radius, .. } => {
-            (center, radius)
-        }
-        FeatureShape::Edge { from, .. } => (from, 0.0),
-    };
-    let ((ca, ra), (cb, rb)) = (circle(a), circle(b));
-    let ca = relative.apply(ca);
+    let (ra, rb) = (a.shape.radius(), b.shape.radius());
+    let (ca, cb) = (relative.apply(a.shape.anchor()), b.shape.anchor());
     let own = match kind {
         GapKind::RoundEdge { swapped: false } => segment_distance(ca, b, &Pose::identity()) - ra,
         GapKind::RoundEdge { swapped: true } => segment_distance(cb, a, relative) - rb,

@@ -78,6 +78,16 @@ impl<S: Scalar> Pose<S> {
         self.rotate(p) + self.shift
     }
 
+    /// The direction whose image is `d`.
+    pub fn rotate_back(&self, d: Vec2<S>) -> Vec2<S> {
+        Vec2::new(self.cos * d.x + self.sin * d.y, self.cos * d.y - self.sin * d.x)
+    }
+
+    /// The point whose image is `p`.
+    pub fn apply_back(&self, p: Vec2<S>) -> Vec2<S> {
+        self.rotate_back(p - self.shift)
+    }
+
     /// `self ∘ inner`: first `inner`, then `self`.
     pub fn then_after(&self, inner: &Self) -> Self {
         Self {
@@ -89,6 +99,14 @@ impl<S: Scalar> Pose<S> {
 }
 
 impl Motion {
+    /// The centre of a turn or the direction of a slide, where the carrier is as modelled.
+    pub fn vector(&self) -> Vec2 {
+        match *self {
+            Motion::Turn { center } => center,
+            Motion::Slide { direction } => direction,
+        }
+    }
+
     /// The rigid motion at joint position `x`.
     pub fn pose<S: Scalar>(&self, x: S) -> Pose<S> {
         match *self {

@@ -48,6 +48,17 @@ fn escapement_has_three_revolute_pairs_with_the_frame() {
     assert!(m.parts.iter().all(|p| p.outline.is_some()));
 }
 
+/// What can touch follows from the shapes: wheel and lever, balance and lever, the frame's pins and the lever, with or
+/// without the supplement.
+#[test]
+fn escapement_touches_in_three_places() {
+    let m = example("escapement");
+    assert_eq!(m.interactions(), [(0, 1), (1, 2), (1, 3)]);
+    let bare = compile(&example_text("escapement"));
+    assert!(bare.system().is_err(), "no inertia is known");
+    assert_eq!(bare.interactions(), m.interactions());
+}
+
 #[test]
 fn escapement_makes_coordinates_and_bodies() {
     let m = example("escapement");

@@ -52,3 +52,22 @@ fn shafts_beside_shafts() {
     let told = |w: &Warning| w.message.contains("only the first were examined") && w.parts.len() == 2;
     assert!(mechanism.warnings.iter().any(told), "{:?}", mechanism.warnings);
 }
+
+/// Eleven seconds: a part that is planar in no direction was integrated by columns, and in each column every span
+/// between two walls asked the whole set expression again.
+#[test]
+fn a_tilted_part_with_a_density() {
+    let start = Instant::now();
+    let mechanism = compile(include_str!("fuzzed/tilted_with_a_density.padl"));
+    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+    assert!(mechanism.parts.iter().any(|p| p.inertia_from_density));
+    let told = |w: &Warning| w.message.contains("is not known better than to 0.1");
+    assert!(mechanism.warnings.iter().any(told), "{:?}", mechanism.warnings);
+}
+
+/// Six seconds for one outline: a block copied over itself five hundred times, each edge asked of all copies that
+/// hold its middle.
+#[test]
+fn copies_of_copies() {
+    ends_in(OVERLAP, include_str!("fuzzed/copies_of_copies.padl"));
+}

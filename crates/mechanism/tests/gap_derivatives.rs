@@ -3,7 +3,7 @@
 
 use mainspring_geometry::{CurveId, Edge, Layer, Loop, Outline, Scalar, Segment, Turn, Vec2};
 use mainspring_mechanism::{
-    Body, Feature, FeatureShape, GapKind, Joint, Motion, Placed, features, gap, gap_state,
+    Body, Feature, FeatureShape, GapKind, Joint, Motion, Placed, Relative, approach, features, gap, gap_state,
 };
 use num_dual::{Dual2_64, Dual64};
 
@@ -101,6 +101,21 @@ fn check(
     assert!((rate - path.v1).abs() < 1e-12 * (1.0 + rate.abs()), "{what}: rate {rate} against {}", path.v1);
     let bias = state.bias(&placed.0, &placed.1, v);
     assert!((bias - path.v2).abs() < 1e-10 * (1.0 + bias.abs()), "{what}: bias {bias} against {}", path.v2);
+
+    let dv = [-0.7, 0.4, 1.1, -1.9];
+    let path: Vec<Dual2_64> = (0..4).map(|i| Dual2_64::new(q[i], v[i], dv[i])).collect();
+    let path = gap(bodies, f, &path).unwrap();
+    let seen = approach(kind, f.0, f.1, &Relative::new(&placed.0, &placed.1, v, &dv));
+    assert!((seen.gap - value).abs() < 1e-13, "{what}: gap {} against {value}", seen.gap);
+    assert!(
+        (seen.rate - path.v1).abs() < 1e-12 * (1.0 + rate.abs()),
+        "{what}: {} against {}",
+        seen.rate,
+        path.v1
+    );
+    let off = (seen.acceleration - path.v2).abs();
+    assert!(off < 1e-10 * (1.0 + path.v2.abs()), "{what}: g̈ {} against {}", seen.acceleration, path.v2);
+    assert!(seen.apart <= seen.gap.abs() + 1e-12 || matches!(kind, GapKind::RoundEdge { .. }), "{what}");
 
     let row = state.row(&placed.0, &placed.1);
     for i in 0..4 {

@@ -129,6 +129,12 @@ fn contradicting_positions_of_gears_are_refused() {
     let text = train(&[(0.0, 4.0), (2.9, 2.0)], "");
     let error = try_compile(&text, "POSITION g0 10\nPOSITION g1 10\n", &CompileOptions::default());
     let error = error.map(|_| ()).unwrap_err();
-    assert!(error.message.contains("contradicts") && error.line == 2, "{error}");
+    // Found by fuzzing: it did not say what was expected.
+    let message = "contradicts that of a gear in mesh with it; expected values that agree";
+    assert!(error.message.contains(message) && error.line == 2, "{error}");
     assert!(try_compile(&text, "POSITION g0 10\nPOSITION g1 -20\n", &CompileOptions::default()).is_ok());
+    let m = try_compile(&text, "", &CompileOptions::default()).unwrap();
+    let error = m.starting_at(&[(0, 0.1), (1, 0.1)], &[]).map(|_| ()).unwrap_err().to_string();
+    assert!(error.starts_with("--position:1:1: error: ") && error.contains("contradicts"), "{error}");
+    assert!(m.starting_at(&[(0, 0.1), (1, -0.2)], &[(1, 3.0)]).is_ok());
 }

@@ -1,7 +1,7 @@
 //! From a syntax to a machine: lowering of expressions, parts, attributes, expansion.
 
 use crate::attributes::Attributes;
-use crate::description::{Parameter, PartModel, Supplement};
+use crate::description::{Parameter, PartModel};
 use crate::error::{Fault, Place, Read, quote};
 use crate::expand::Expansion;
 use crate::expression::Expression;
@@ -10,6 +10,7 @@ use crate::placement::{Copies, Motion, Placement};
 use crate::resolve::Resolved;
 use crate::shape_text::ShapeText;
 use crate::solids::Solids;
+use crate::supplement::Supplement;
 use crate::syntax::{RawCopies, RawMotion, RawShape, Syntax};
 
 /// The machine of a model's text, without its supplement.

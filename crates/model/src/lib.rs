@@ -17,6 +17,7 @@ mod load;
 mod machine;
 mod names;
 mod parse_file;
+mod parse_forces;
 mod parse_number;
 mod parse_solid;
 mod parse_supplement;
@@ -26,14 +27,16 @@ mod resolve;
 mod shape_text;
 mod solids;
 mod source;
+mod supplement;
 mod syntax;
 mod values;
 
-pub use description::{
-    Density, Gear, GearMember, PairData, Parameter, PartModel, Spring, StateValue, Supplement,
-    SymmetricUnion, SymmetryKind,
-};
+pub use description::{Density, Gear, GearMember, Parameter, PartModel, SymmetricUnion, SymmetryKind};
 pub use error::{Error, Place, quote};
 pub use expression::Expression;
 pub use machine::Machine;
+pub use supplement::{
+    ContactData, DriveData, DriveKind, ForceData, GravityData, MassData, PairData, PartNumber, Spring,
+    StopData, Supplement,
+};
 pub use values::{Overrides, Values, parse_setting};

@@ -29,3 +29,6 @@ pub const NAME_CHARACTERS: usize = 100;
 
 /// Characters of a written number: enough for every binary64 number to 17 digits, with room.
 pub const NUMBER_CHARACTERS: usize = 100;
+
+/// Points of one table of the supplement.
+pub const TABLE_POINTS: usize = 100_000;

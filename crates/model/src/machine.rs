@@ -1,10 +1,11 @@
 //! The machine: what a text says, before any number is put in.
 
-use crate::description::{Gear, Parameter, PartModel, Supplement, SymmetricUnion};
+use crate::description::{Gear, Parameter, PartModel, SymmetricUnion};
 use crate::error::{Error, Place, Read, SETTING_FILE, file_name};
 use crate::expression::Expression;
 use crate::placement::{Copies, Placement, PoseStep};
 use crate::shape_text::ShapeText;
+use crate::supplement::Supplement;
 
 /// A machine as a person edits it: parameters, parts and supplement.
 #[derive(Clone, Debug)]
@@ -65,7 +66,7 @@ impl Machine {
         self.parameters.iter().position(|p| p.name.eq_ignore_ascii_case(name))
     }
 
-    /// Inertias, frictions, springs and the initial state; empty if no supplement was given.
+    /// Inertias, forces, drives, stops and the initial state; empty if no supplement was given.
     pub fn supplement(&self) -> &Supplement {
         &self.supplement
     }

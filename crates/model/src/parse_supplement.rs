@@ -1,10 +1,10 @@
-//! The supplement: inertias, frictions, springs, and the initial state (Gelsey 1995, Fig. 13).
+//! The supplement's text: one line each for a pair, a state, a force, a drive (after Gelsey 1995, Fig. 13).
 
-use crate::description::{PairData, Spring, StateValue, Supplement};
 use crate::error::{Fault, Place, Read, number, quote};
 use crate::lexer::{Lexer, Token, TokenKind};
 use crate::machine::Machine;
 use crate::names;
+use crate::supplement::{PairData, PartNumber, Spring, Supplement, once};
 
 /// Reads a supplement to a machine.
 pub(crate) fn parse(text: &str, machine: &Machine) -> Read<Supplement> {
@@ -14,14 +14,21 @@ pub(crate) fn parse(text: &str, machine: &Machine) -> Read<Supplement> {
     while reader.token.kind != TokenKind::FileEnd {
         reader.line()?;
     }
+    reader.supplement.check(machine)?;
     Ok(reader.supplement)
 }
 
-struct Reader<'a> {
+/// The words that begin a line, beside `<`.
+pub(crate) const WORDS: [&str; 11] = [
+    "POSITION", "VELOCITY", "TORQUE", "FORCE", "COULOMB", "SPEED", "TABLE", "STOP", "MASS", "GRAVITY",
+    "CONTACT",
+];
+
+pub(crate) struct Reader<'a> {
     lexer: Lexer<'a>,
-    token: Token<'a>,
-    machine: &'a Machine,
-    supplement: Supplement,
+    pub token: Token<'a>,
+    pub machine: &'a Machine,
+    pub supplement: Supplement,
 }
 
 impl<'a> Reader<'a> {
@@ -29,18 +36,19 @@ impl<'a> Reader<'a> {
         if self.token.kind == TokenKind::LineEnd {
             return self.take().map(|_| ());
         }
-        if self.token.is_symbol(b'<') {
-            self.pair()?;
-        } else if self.token.is_word("position") {
-            let value = self.state_value("position")?;
-            add(&mut self.supplement.positions, value, "position", self.machine)?;
-        } else if self.token.is_word("velocity") {
-            let value = self.state_value("velocity")?;
-            add(&mut self.supplement.velocities, value, "velocity", self.machine)?;
-        } else {
-            return Err(
-                self.unexpected("`< PART : FRAME > …`, `POSITION part value` or `VELOCITY part value`")
-            );
+        let word = WORDS.into_iter().find(|w| self.token.is_word(w));
+        match word {
+            None if self.token.is_symbol(b'<') => self.pair()?,
+            None => return Err(self.stranger()),
+            Some("POSITION") => {
+                let value = self.state("position")?;
+                self.supplement.positions.push(value);
+            }
+            Some("VELOCITY") => {
+                let value = self.state("velocity")?;
+                self.supplement.velocities.push(value);
+            }
+            Some(word) => self.acting(word)?,
         }
         if self.token.is_end() {
             return self.take().map(|_| ());
@@ -48,46 +56,47 @@ impl<'a> Reader<'a> {
         Err(self.unexpected("the end of the line"))
     }
 
-    /// `< PART : FRAME > [inertia] friction [SPRING relaxed constant]`
+    fn stranger(&self) -> Box<Fault> {
+        let nearest = names::nearest(WORDS, self.token.text).filter(|_| self.token.kind == TokenKind::Word);
+        match nearest {
+            Some(word) => self.unexpected(&format!("`{word}`, the nearest word that begins a line")),
+            None => self.unexpected(&format!(
+                "`< PART : CARRIER > …` or a line that begins with {}",
+                WORDS.join(", ")
+            )),
+        }
+    }
+
+    /// `< PART : CARRIER > [inertia] friction [SPRING relaxed constant]`
     fn pair(&mut self) -> Read<()> {
         let place = self.take()?.place;
+        let part_place = self.token.place;
         let part = self.part()?;
         self.symbol(b':')?;
-        let other = self.frame(part)?;
+        let other = self.carrier(part, part_place)?;
         self.symbol(b'>')?;
-        let (inertia, friction) = self.inertia_and_friction(part)?;
+        let number = self.token.place;
+        let (inertia, friction) = self.inertia_and_friction()?;
         let spring = if self.token.is_word("spring") { Some(self.spring()?) } else { None };
-        if let Some(earlier) = self.supplement.pairs.iter().find(|p| p.part == part) {
-            return Err(twice(place, earlier.place, "line", &self.machine.parts()[part].name));
-        }
-        self.supplement.pairs.push(PairData { part, other, inertia, friction, spring, place });
+        let earlier = self.supplement.pairs.iter().find(|p| p.part == part);
+        once(self.machine, (part, place), "line", earlier.map(|p| ("line", p.place)))?;
+        self.supplement.pairs.push(PairData { part, other, inertia, friction, spring, place, number });
         Ok(())
     }
 
-    /// One number is the friction; the inertia then follows from the part's density.
-    fn inertia_and_friction(&mut self, part: usize) -> Read<(Option<f64>, f64)> {
+    /// One number is the friction; the inertia then follows from the part's density or mass.
+    fn inertia_and_friction(&mut self) -> Read<(Option<f64>, f64)> {
         let place = self.token.place;
         let first = self.number("the inertia and the friction")?;
         if !self.at_number() {
-            let model = &self.machine.parts()[part];
-            if model.density.is_none() {
-                let name = &model.name;
-                let message = format!(
-                    "only one number, and {name} has no density; expected inertia and friction, or `attr {name} : density = …` in the model"
-                );
-                return Err(Fault::new(place, message));
+            if !(self.token.is_end() || self.token.is_word("spring")) {
+                return Err(self.unexpected("the friction"));
             }
             return Ok((None, not_negative(first, place, "friction")?));
         }
-        if first <= 0.0 {
-            return Err(Fault::new(
-                place,
-                format!("the inertia is {}; expected a positive number", number(first)),
-            ));
-        }
-        let place = self.token.place;
-        let friction = self.number("the friction")?;
-        Ok((Some(first), not_negative(friction, place, "friction")?))
+        let inertia = positive(first, place, "inertia")?;
+        let friction = self.not_negative("friction")?;
+        Ok((Some(inertia), friction))
     }
 
     fn spring(&mut self) -> Read<Spring> {
@@ -98,7 +107,20 @@ impl<'a> Reader<'a> {
         Ok(Spring { relaxed, constant: not_negative(constant, place, "spring constant")? })
     }
 
-    fn state_value(&mut self, what: &str) -> Read<StateValue> {
+    fn state(&mut self, what: &str) -> Read<PartNumber> {
+        let (part, place) = self.moving(what)?;
+        let value = self.number(&format!("the {what}"))?;
+        let known = match what {
+            "position" => &self.supplement.positions,
+            _ => &self.supplement.velocities,
+        };
+        let earlier = known.iter().find(|v| v.part == part);
+        once(self.machine, (part, place), what, earlier.map(|v| (what, v.place)))?;
+        Ok(PartNumber { part, value, place })
+    }
+
+    /// The line's word and the part it is about, with the place of the line.
+    pub fn moving(&mut self, what: &str) -> Read<(usize, Place)> {
         let place = self.take()?.place;
         let part_place = self.token.place;
         let part = self.part()?;
@@ -106,8 +128,7 @@ impl<'a> Reader<'a> {
             let message = format!("a {what} of the frame, which does not move; expected a moving part");
             return Err(Fault::new(part_place, message));
         }
-        let value = self.number(&format!("the {what}"))?;
-        Ok(StateValue { part, value, place })
+        Ok((part, place))
     }
 
     fn part(&mut self) -> Read<usize> {
@@ -122,9 +143,9 @@ impl<'a> Reader<'a> {
         Err(Fault::new(word.place, message))
     }
 
-    /// The frame by its name, or the word FRAME.
-    fn frame(&mut self, part: usize) -> Read<usize> {
-        let word = self.word("the frame")?;
+    /// The other part of a pair, by its name; the frame also by the word FRAME.
+    fn carrier(&mut self, part: usize, part_place: Place) -> Read<usize> {
+        let word = self.word("the part that carries it, or FRAME")?;
         let named = self.machine.part_index(word.text);
         if named.is_none() && !word.is_word("frame") {
             return self.unknown_part(&word);
@@ -133,21 +154,25 @@ impl<'a> Reader<'a> {
             let message = "the machine has no frame; expected `attr PART : frame = 1` in the model";
             return Err(Fault::new(word.place, message));
         };
-        if named.is_some_and(|n| n != frame) {
-            let name = &self.machine.parts()[frame].name;
-            let message = format!("{} is not the frame; expected `{name}` or FRAME", quote(word.text));
-            return Err(Fault::new(word.place, message));
-        }
-        if part == frame {
-            return Err(Fault::new(
-                word.place,
-                "the frame against itself; expected a moving part in front of `:`",
-            ));
-        }
-        Ok(frame)
+        let other = named.unwrap_or(frame);
+        let name = &self.machine.parts()[other].name;
+        let message = match part {
+            _ if part == other && part == frame => {
+                "the frame against itself; expected a moving part in front of `:`".to_string()
+            }
+            _ if part == other => {
+                format!("{name} against itself; expected the part that carries it, or FRAME")
+            }
+            _ if part == frame => {
+                let message = format!("the frame in front of `:`; expected `< {name} : FRAME >`");
+                return Err(Fault::new(part_place, message));
+            }
+            _ => return Ok(other),
+        };
+        Err(Fault::new(word.place, message))
     }
 
-    fn word(&mut self, expected: &str) -> Read<Token<'a>> {
+    pub fn word(&mut self, expected: &str) -> Read<Token<'a>> {
         if self.token.kind == TokenKind::Word { self.take() } else { Err(self.unexpected(expected)) }
     }
 
@@ -158,11 +183,11 @@ impl<'a> Reader<'a> {
         Err(self.unexpected(&format!("`{}`", char::from(symbol))))
     }
 
-    fn at_number(&self) -> bool {
+    pub fn at_number(&self) -> bool {
         self.token.is_symbol(b'-') || matches!(self.token.kind, TokenKind::Number(_))
     }
 
-    fn number(&mut self, expected: &str) -> Read<f64> {
+    pub fn number(&mut self, expected: &str) -> Read<f64> {
         let negative = self.token.is_symbol(b'-');
         if negative {
             self.take()?;
@@ -172,23 +197,32 @@ impl<'a> Reader<'a> {
         Ok(if negative { -value } else { value })
     }
 
-    fn take(&mut self) -> Read<Token<'a>> {
+    pub fn positive(&mut self, what: &str) -> Read<f64> {
+        let place = self.token.place;
+        positive(self.number(&format!("the {what}"))?, place, what)
+    }
+
+    pub fn not_negative(&mut self, what: &str) -> Read<f64> {
+        let place = self.token.place;
+        not_negative(self.number(&format!("the {what}"))?, place, what)
+    }
+
+    pub fn take(&mut self) -> Read<Token<'a>> {
         let taken = self.token;
         self.token = self.lexer.next()?;
         Ok(taken)
     }
 
-    fn unexpected(&self, expected: &str) -> Box<Fault> {
+    pub fn unexpected(&self, expected: &str) -> Box<Fault> {
         Fault::new(self.token.place, format!("{}; expected {expected}", self.token.describe()))
     }
 }
 
-fn add(values: &mut Vec<StateValue>, value: StateValue, what: &str, machine: &Machine) -> Read<()> {
-    if let Some(earlier) = values.iter().find(|v| v.part == value.part) {
-        return Err(twice(value.place, earlier.place, what, &machine.parts()[value.part].name));
+fn positive(value: f64, place: Place, what: &str) -> Read<f64> {
+    if value > 0.0 {
+        return Ok(value);
     }
-    values.push(value);
-    Ok(())
+    Err(Fault::new(place, format!("the {what} is {}; expected a positive number", number(value))))
 }
 
 fn not_negative(value: f64, place: Place, what: &str) -> Read<f64> {
@@ -196,12 +230,4 @@ fn not_negative(value: f64, place: Place, what: &str) -> Read<f64> {
         return Ok(value);
     }
     Err(Fault::new(place, format!("the {what} is {}; expected zero or a positive number", number(value))))
-}
-
-fn twice(place: Place, earlier: Place, what: &str, part: &str) -> Box<Fault> {
-    let message = format!(
-        "a second {what} for {part} (the first is at {}:{}); expected one",
-        earlier.line, earlier.column
-    );
-    Fault::new(place, message)
 }

@@ -329,7 +329,7 @@ fn supplements() {
             "< base : FRAME > 1 2",
             "1:10: error: the frame against itself; expected a moving part in front of `:`",
         ),
-        ("< base : a > 1 2", "1:10: error: `a` is not the frame; expected `base` or FRAME"),
+        ("< base : a > 1 2", "1:3: error: the frame in front of `:`; expected `< a : FRAME >`"),
         (
             "POSITION base 6",
             "1:10: error: a position of the frame, which does not move; expected a moving part",
@@ -343,9 +343,14 @@ fn supplements() {
         ("< a : FRAME > 1 2 3", "1:19: error: unexpected `3`; expected the end of the line"),
         ("< a FRAME > 1 2", "1:5: error: unexpected `FRAME`; expected `:`"),
         (
-            "SPEED a 3",
-            "1:1: error: unexpected `SPEED`; expected `< PART : FRAME > …`, `POSITION part value` or `VELOCITY part value`",
+            "INERTIA a 3",
+            "1:1: error: unexpected `INERTIA`; expected `< PART : CARRIER > …` or a line that begins with POSITION, VELOCITY, TORQUE, FORCE, COULOMB, SPEED, TABLE, STOP, MASS, GRAVITY, CONTACT",
         ),
+        (
+            "SPEDE a 3",
+            "1:1: error: unexpected `SPEDE`; expected `SPEED`, the nearest word that begins a line",
+        ),
+        ("< a : FRAME > 1 inf", "1:17: error: unexpected `inf`; expected the friction"),
         ("< a : FRAME > nan 2", "1:15: error: unexpected `nan`; expected the inertia and the friction"),
         ("< a : FRAME > 1_0 2", "1:15: error: `1_0` is not a number; expected one like 12, 0.5 or 1e-3"),
     ];

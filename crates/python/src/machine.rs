@@ -1,6 +1,6 @@
 //! Machine and Mechanism as Python sees them.
 
-use crate::errors::{InputError, bad_input, by_index};
+use crate::errors::{InputError, bad_input, by_index, count};
 use crate::results::{PyPrediction, PyRun, watch};
 use mainspring::{
     CompileOptions, Machine, MatchOptions, Mechanism, PredictOptions, SimulationOptions, drawing_json,
@@ -66,7 +66,7 @@ fn rigid(contact: &str) -> PyResult<()> {
     if contact == "rigid" {
         return Ok(());
     }
-    Err(InputError::new_err(format!("--contact:1:1: error: no contact model {contact:?}, expected rigid")))
+    Err(InputError::new_err(format!("--contact:1:1: error: no contact model {contact:?}; expected rigid")))
 }
 
 #[pymethods]
@@ -107,7 +107,7 @@ impl PyMechanism {
 
     /// Run until it is known what repeats.
     #[pyo3(signature = (*, contact = "rigid", rtol = 1e-8, positions = vec![], velocities = vec![], p_confirm = 2,
-        p_range_fraction = 1e-5, p_ignore = 4, p_t_match = 0.01, p_s_v_match = 0.02, max_minima = 2000,
+        p_range_fraction = 1e-5, p_ignore = 4, p_t_match = 0.01, p_s_v_match = 0.02, max_minima = 1000,
         max_time = 1e5, progress = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
     fn predict(
@@ -117,24 +117,25 @@ impl PyMechanism {
         rtol: f64,
         positions: Values,
         velocities: Values,
-        p_confirm: u32,
+        p_confirm: i64,
         p_range_fraction: f64,
-        p_ignore: u32,
+        p_ignore: i64,
         p_t_match: f64,
         p_s_v_match: f64,
-        max_minima: usize,
+        max_minima: i64,
         max_time: f64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<PyPrediction> {
         rigid(contact)?;
         let mechanism = self.started(&positions, &velocities)?;
         let matching = MatchOptions {
-            confirm: p_confirm,
+            confirm: count(p_confirm, "--confirm")?,
             range_fraction: p_range_fraction,
-            ignore: p_ignore,
+            ignore: count(p_ignore, "--ignore")?,
             time_match: p_t_match,
             state_match: p_s_v_match,
         };
+        let max_minima = count(max_minima, "--max-minima")?;
         let options = PredictOptions { matching, rtol, max_minima, max_time, ..PredictOptions::default() };
         let found = watch(py, progress, |progress| predict(&mechanism, &options, progress))?;
         Ok(PyPrediction(Arc::new(found.map_err(bad_input)?)))

@@ -47,6 +47,16 @@ fn ask(py: Python<'_>, progress: Option<&Py<PyAny>>, t: f64) -> PyResult<bool> {
 #[pyclass(name = "Run", module = "mainspring._core", frozen)]
 pub struct PyRun(pub Arc<SimulationResult>);
 
+impl PyRun {
+    fn check_time(&self, t: f64) -> PyResult<()> {
+        if self.0.knows(t) {
+            return Ok(());
+        }
+        let end = self.0.end();
+        Err(PyValueError::new_err(format!("time is {t}; expected one within the run, from 0 to {end}")))
+    }
+}
+
 #[pymethods]
 impl PyRun {
     #[getter]
@@ -71,6 +81,7 @@ impl PyRun {
         py: Python<'py>,
         t: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        t.as_array().iter().try_for_each(|t| self.check_time(*t))?;
         let states: Vec<(Vec<f64>, Vec<f64>)> = t.as_array().iter().map(|&t| self.0.at(t)).collect();
         let shape = [states.len(), self.0.parts().len()];
         let array = |pick: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| {
@@ -80,11 +91,19 @@ impl PyRun {
         Ok((array(|s| &s.0)?, array(|s| &s.1)?))
     }
 
+    /// The kinetic energy at the times `t`, `(n,)`.
+    fn kinetic_energy<'py>(
+        &self,
+        py: Python<'py>,
+        t: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        t.as_array().iter().try_for_each(|t| self.check_time(*t))?;
+        Ok(PyArray1::from_iter(py, t.as_array().iter().map(|t| self.0.kinetic_energy(*t))))
+    }
+
     /// What touches at `t`, as a JSON list.
     fn contacts_at(&self, t: f64) -> PyResult<String> {
-        if !t.is_finite() {
-            return Err(PyValueError::new_err(format!("time is {t}, expected a finite number")));
-        }
+        self.check_time(t)?;
         Ok(self.0.contacts_at(t).to_string())
     }
 }

@@ -8,7 +8,7 @@ import importlib
 import sys
 
 from mainspring.cli.arguments import parser
-from mainspring.cli.faults import Stopped, Usage
+from mainspring.cli.faults import Stopped, Unwritable, Usage
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -20,6 +20,8 @@ def main(argv: list[str] | None = None) -> int:
         sys.stdout.flush()
     except Usage as fault:
         return _fail(f"mainspring {options.command}: error: {fault}")
+    except Unwritable as fault:
+        return _fail(str(fault))
     except Stopped:
         return 130
     except KeyboardInterrupt:
@@ -28,7 +30,10 @@ def main(argv: list[str] | None = None) -> int:
         sys.stderr.close()
         return 0
     except OSError as fault:
-        return _fail(f"{fault.filename or 'mainspring'}:1:1: error: {fault.strerror or fault}")
+        what = (
+            f"the file cannot be used ({fault.strerror or fault}); expected one that can be read and written"
+        )
+        return _fail(f"{fault.filename or 'mainspring'}:1:1: error: {what}")
     except ValueError as fault:
         return _input_error(fault)
     return 0

@@ -74,4 +74,4 @@ def kind_of(result: Any) -> str:  # noqa: ANN401
     ):
         if key in keys:
             return kind
-    raise Usage("expected a result of inspect, simulate, predict or demo")
+    raise Usage("no result of this program; expected one of inspect, simulate, predict or demo")

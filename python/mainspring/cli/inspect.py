@@ -5,7 +5,7 @@ from pathlib import Path
 
 import mainspring as ms
 from mainspring.cli import opening, output, tables
-from mainspring.pairs import Axis, Kinematics, Pair
+from mainspring.pairs import Axis, Joint, Kinematics, Pair
 from mainspring.result import counted
 
 _MOVES = {"revolute": "turns", "prismatic": "slides", "cylindrical": "turns and slides"}
@@ -34,6 +34,8 @@ def account(mechanism: "ms.Mechanism", found: Kinematics) -> None:
     tables.show("pairs", ("parts", "kind", "axis through", "along"), map(_pair_row, found.pairs))
     reasons = ((" – ".join(p.parts), "; ".join(counted(p.evidence))) for p in found.pairs)
     tables.show("why they are pairs", ("parts", "evidence"), reasons)
+    acting = ((j.part, j.carrier, "; ".join(_acting(j))) for j in found.joints if _tells(j, found.frame))
+    tables.show("joints with more than spring and friction", ("part", "on", "what acts"), acting)
     rows = ((s.root, ", ".join(s.parts), _inertia(s.inertia)) for s in found.subsystems)
     tables.show("subsystems", ("root", "parts", "inertia"), rows, numeric=(2,))
     misses = ((" – ".join(n.parts), n.why) for n in found.near_misses)
@@ -48,22 +50,46 @@ def sentences(found: Kinematics) -> list[str]:
         if pair.kind in _MOVES and len(moving) == 1:
             by_kind.setdefault(pair.kind, []).append(moving[0])
     said = [f"{listed(names)} {_verb(kind, names)}." for kind, names in by_kind.items()]
-    said += [f"{b} turns on {a}." for a, b in _carried(found)]
+    said += [f"{part} {verb} on {carrier}." for part, verb, carrier in _carried(found)]
     chains = [
         f"{listed(list(c.parts))} form a closed chain, mobility {c.mobility}." for c in found.closed_chains
     ]
     said += chains
     gears = [" and ".join(p.parts) for p in found.pairs if p.kind == "gear"]
     said += [f"{listed(gears)} mesh as gears."] if gears else []
+    if any(found.gravity):
+        said.append("Gravity: (" + ", ".join(tables.signed(g) for g in found.gravity) + ").")
     touching = listed(["–".join(i) for i in found.interactions])
     said.append(f"Can ever touch: {touching}." if touching else "No parts can ever touch.")
     said.append(f"State: {len(found.state_variables)} variables.")
     return said
 
 
-def _carried(found: Kinematics) -> list[tuple[str, ...]]:
-    """Return the moving parts that turn on other moving parts."""
-    return [p.parts for p in found.pairs if p.kind == "revolute" and found.frame not in p.parts]
+def _carried(found: Kinematics) -> list[tuple[str, str, str]]:
+    """Return the parts that turn or slide on other moving parts."""
+    return [(j.part, f"{j.motion}s", j.carrier) for j in found.joints if j.carrier != found.frame]
+
+
+def _tells(joint: Joint, frame: str | None) -> bool:
+    return joint.carrier != frame or bool(_acting(joint))
+
+
+def _acting(joint: Joint) -> list[str]:
+    """Return what acts on a part beside spring and viscous friction, in words."""
+    said = []
+    if joint.drive and joint.drive.speed is not None:
+        said.append(f"driven at {tables.coordinate(joint.drive.speed, joint.motion)} per time")
+    elif joint.drive and joint.drive.table is not None:
+        said.append(f"driven by a table of {len(joint.drive.table)} points")
+    what = "torque" if joint.motion == "turn" else "force"
+    said += [f"constant {what} {tables.signed(joint.torque)}"] if joint.torque else []
+    said += [f"dry friction {tables.signed(joint.coulomb)}"] if joint.coulomb else []
+    low, high = (None if s is None else tables.coordinate(s, joint.motion) for s in joint.stops)
+    if low and high:
+        said.append(f"stops at {low} and {high}")
+    elif low or high:
+        said.append(f"{'lower' if low else 'upper'} stop at {low or high}")
+    return said
 
 
 def _verb(kind: str, names: list[str]) -> str:

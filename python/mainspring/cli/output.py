@@ -8,9 +8,18 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
+from mainspring.cli.faults import Unwritable
+
 
 def write_file(path: Path, content: Callable[[IO[bytes]], object]) -> None:
     """Write a file under a temporary name beside its place, then rename it into place."""
+    try:
+        _write(path, content)
+    except OSError as fault:
+        raise Unwritable(path, fault) from fault
+
+
+def _write(path: Path, content: Callable[[IO[bytes]], object]) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     number, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     temporary = Path(name)

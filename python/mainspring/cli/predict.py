@@ -19,11 +19,11 @@ def run(options: Namespace) -> None:
     rtol = values.positive(options.rtol, "--rtol")
     mechanism = opening.mechanism(options)
     start = opening.start(options, mechanism)
-    opening.warn(ms.find_pairs(mechanism).warnings)
     with watch("looking for what repeats") as progress:
         result = ms.predict(
             mechanism, contact=options.contact, rtol=rtol, progress=progress, **start, **chosen
         )
+    opening.warn(ms.find_pairs(mechanism).warnings)
     if options.report:
         from mainspring.report import page
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mainspring.cli import output, tables
 from mainspring.cli.faults import Usage
+from mainspring.cli.values import shortened
 
 _ROOT = Path(__file__).resolve().parent.parent / "examples"
 
@@ -19,7 +20,7 @@ def run(options: Namespace) -> None:
         return
     if options.directory is None:
         raise Usage(
-            f"examples {options.name}: expected a new folder for it, as in: examples {options.name} DIR"
+            f"no folder to copy to; expected one that is new, as in: mainspring examples {options.name} DIR"
         )
     files = copy(options.name, Path(options.directory))
     if options.json:
@@ -37,7 +38,7 @@ def names() -> list[str]:
 def folder(name: str) -> Path:
     """Return the folder of a shipped machine."""
     if name not in names():
-        raise Usage(f"no example {name!r}; there are: {', '.join(names())}")
+        raise Usage(f"no example {shortened(name)}; expected one of: {', '.join(names())}")
     return _ROOT / name
 
 

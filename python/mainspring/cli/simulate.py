@@ -1,6 +1,8 @@
 """`mainspring simulate`: the motion over a stretch of time."""
 
+import json
 from argparse import Namespace
+from collections.abc import Mapping
 from pathlib import Path
 
 import mainspring as ms
@@ -15,10 +17,9 @@ def run(options: Namespace) -> None:
     until = values.positive(options.until, "--until")
     rtol = values.positive(options.rtol, "--rtol")
     if options.csv and not options.out:
-        raise Usage("--csv: needs --out DIR, where trajectory.csv is to go")
+        raise Usage("--csv: no folder for trajectory.csv; expected --out DIR as well")
     mechanism = opening.mechanism(options)
     start = opening.start(options, mechanism)
-    opening.warn(ms.find_pairs(mechanism).warnings)
     with watch("simulating", until) as progress:
         result = ms.simulate(
             mechanism,
@@ -29,6 +30,7 @@ def run(options: Namespace) -> None:
             progress=progress,
             **start,
         )
+    opening.warn(ms.find_pairs(mechanism).warnings)
     _keep(options, mechanism, result)
     if progress.stopped:
         raise Stopped
@@ -45,7 +47,7 @@ def _keep(options: Namespace, mechanism: "ms.Mechanism", result: Simulation) -> 
     if options.json:
         output.print_json(text)
     else:
-        account(mechanism, result)
+        account(mechanism, result, json.loads(text)["stats"])
         for path in written:
             print(f"wrote {path}")
 
@@ -84,14 +86,14 @@ _ENDED = {
 }
 
 
-def account(mechanism: "ms.Mechanism", result: Simulation) -> None:
-    """Say how it ended, then the final state and the energy account."""
+def account(mechanism: "ms.Mechanism", result: Simulation, stats: Mapping[str, float]) -> None:
+    """Say how it ended, then the final state, the energy account and the work it took."""
     motions = {p["name"]: p["motion"]["kind"] for p in mechanism.outlines()["parts"] if p["motion"]}
     ended = _ENDED.get(result.status, result.status)
-    kinds = [e.kind for e in result.events]
+    changes = sum(e.kind != "impact" for e in result.events)
     print(f"{mechanism.name}: the run {ended}, t = {tables.signed(result.t, 8)} s.")
     print(
-        f"{kinds.count('impact')} impacts, {kinds.count('close') + kinds.count('release')} contact changes, "
+        f"{result.stats['impacts']} impacts, {changes} contact changes, "
         f"{len(result.kinetic_energy_minima)} minima of kinetic energy."
     )
     rows = (
@@ -104,7 +106,7 @@ def account(mechanism: "ms.Mechanism", result: Simulation) -> None:
     )
     tables.show("at the end", ("part", "position", "velocity"), rows, numeric=(1, 2))
     tables.show("energy", ("account", "amount"), energy_rows(result), numeric=(1,))
-    counts = (f"{k} {v:.3g}" if isinstance(v, float) else f"{k} {v}" for k, v in result.stats.items())
+    counts = (f"{k} {v:.3g}" if isinstance(v, float) else f"{k} {v}" for k, v in stats.items())
     print("\nwork: " + ", ".join(counts))
 
 
@@ -113,6 +115,7 @@ def energy_rows(result: Simulation) -> list[tuple[str, str]]:
     e = result.energy
     return [
         ("at the start", tables.signed(e.initial, 8)),
+        *([("done by drives and torques", tables.signed(e.work, 8))] if e.work else []),
         ("lost to friction", tables.signed(e.friction, 8)),
         ("lost at impacts", tables.signed(e.impacts, 8)),
         ("at the end", tables.signed(e.final, 8)),

@@ -25,7 +25,7 @@ def positive(text: str, option: str) -> float:
     """Return a number above zero."""
     value = number(text, option)
     if value <= 0:
-        raise Usage(f"{option} {shortened(text)}: expected a number above 0")
+        raise Usage(f"{option} {shortened(text)}: out of range; expected a number above 0")
     return value
 
 
@@ -33,14 +33,16 @@ def at_least_zero(text: str, option: str) -> float:
     """Return a number that is not negative."""
     value = number(text, option)
     if value < 0:
-        raise Usage(f"{option} {shortened(text)}: expected a number of at least 0")
+        raise Usage(f"{option} {shortened(text)}: out of range; expected 0 or a positive number")
     return value
 
 
 def count(text: str, option: str, least: int) -> int:
     """Return a whole number between `least` and a million."""
     if not re.fullmatch(r"\d{1,7}", text, re.ASCII) or not least <= int(text) <= 1_000_000:
-        raise Usage(f"{option} {shortened(text)}: expected a whole number from {least} to 1000000")
+        raise Usage(
+            f"{option} {shortened(text)}: no such count; expected a whole number from {least} to 1000000"
+        )
     return int(text)
 
 
@@ -54,7 +56,7 @@ def split(text: str, option: str) -> tuple[str, str]:
     """Return the two sides of NAME=VALUE."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip() or not value.strip():
-        raise Usage(f"{option} {shortened(text)}: expected NAME=VALUE")
+        raise Usage(f"{option} {shortened(text)}: no assignment; expected NAME=VALUE")
     return name.strip(), value.strip()
 
 
@@ -64,7 +66,7 @@ def settings(texts: Iterable[str]) -> dict[str, float]:
     for text in texts:
         name, value = split(text, "--set")
         if name.lower() in {n.lower() for n in found}:
-            raise Usage(f"--set {shortened(text)}: {name} is set twice")
+            raise Usage(f"--set {shortened(text)}: {name} is set twice; expected one value")
         found[name] = number(value, f"--set {shortened(name)}")
     return found
 
@@ -88,11 +90,11 @@ def coordinates(texts: Iterable[str], option: str, motions: dict[str, str]) -> d
         if part.lower() not in names:
             known = ", ".join(motions) or "none"
             raise Usage(
-                f"{option} {shortened(text)}: no moving part {shortened(part)}; moving parts: {known}"
+                f"{option} {shortened(text)}: no moving part {shortened(part)}; expected one of: {known}"
             )
         name = names[part.lower()]
         if name in found:
-            raise Usage(f"{option} {shortened(text)}: {name} is given twice")
+            raise Usage(f"{option} {shortened(text)}: {name} is given twice; expected one value")
         found[name] = _coordinate(value, text, option, motions[name])
     return found
 

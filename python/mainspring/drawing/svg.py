@@ -8,7 +8,7 @@ from typing import Any
 
 from mainspring.drawing.outline import Xy, number, path
 from mainspring.drawing.palette import colour_class, variables
-from mainspring.drawing.pose import Part, bounds, part_points, transform
+from mainspring.drawing.pose import Part, bounds, chain, part_points, placed
 from mainspring.drawing.spring import shape
 
 STYLE = (
@@ -63,8 +63,8 @@ def colours(parts: list[Part]) -> dict[str, str]:
     return {p["name"]: colour_class(None if p["frame"] else moving.index(p["name"])) for p in parts}
 
 
-def _group(part: Part, kind: str, q: Mapping[str, float], inside: str) -> str:
-    pose = transform(part, q.get(part["name"], 0.0))
+def _group(parts: list[Part], part: Part, kind: str, q: Mapping[str, float], inside: str) -> str:
+    pose = placed({p["name"]: p for p in parts}, part["name"], q)
     attribute = f' transform="{pose}"' if pose else ""
     name = html.escape(part["name"], quote=True)
     return f'<g class="{kind}" data-part="{name}"{attribute}>{inside}</g>'
@@ -90,8 +90,18 @@ def _bodies(parts: list[Part], q: Mapping[str, float]) -> str:
         elif part["frame"] and bottom == lowest:
             kind += " plate"
         body = f'<path class="body" d="{path(part["layers"][depth]["loops"])}"/>'
-        drawn.append(_group(part, kind, q, body))
+        drawn.append(_group(parts, part, kind, q, body))
     return "".join(drawn)
+
+
+def _carried(parts: list[Part], part: Part, q: Mapping[str, float], inside: str) -> str:
+    """Put what stays on a part's carrier where the carrier is; nothing to do on the frame."""
+    named, carrier = {p["name"]: p for p in parts}, part.get("carrier")
+    if not carrier or not chain(named, carrier):
+        return inside
+    pose = placed(named, carrier, q)
+    attribute = f' transform="{pose}"' if pose else ""
+    return f'<g data-on="{html.escape(carrier, quote=True)}"{attribute}>{inside}</g>'
 
 
 def _xy(p: Xy) -> str:
@@ -112,14 +122,15 @@ def _slideway(part: Part, size: float) -> str:
     return f'<path class="slideway" d="M{ends[0]} {ends[1]}L{ends[2]} {ends[3]}"/>'
 
 
-def _axes(parts: list[Part], size: float) -> str:
+def _axes(parts: list[Part], q: Mapping[str, float], size: float) -> str:
     colour = colours(parts)
     drawn = []
     for part in (p for p in parts if p["motion"]):
         if part["motion"]["kind"] == "turn":
-            drawn.append(_cross(part["motion"]["center"], 0.022 * size))
+            drawn.append(_carried(parts, part, q, _cross(part["motion"]["center"], 0.022 * size)))
         elif part_points(part):
-            drawn.append(f'<g class="{colour[part["name"]]}">{_slideway(part, size)}</g>')
+            way = f'<g class="{colour[part["name"]]}">{_slideway(part, size)}</g>'
+            drawn.append(_carried(parts, part, q, way))
     return "".join(drawn)
 
 
@@ -131,7 +142,7 @@ def _gears(parts: list[Part], q: Mapping[str, float]) -> str:
             (x, y), r = gear["center"], gear["radius"]
             ring = f'<circle class="pitch" cx="{number(x)}" cy="{number(y)}" r="{number(r)}"/>'
             tick = f'<path class="pitch" d="M{number(x + 0.9 * r)} {number(y)}H{number(x + r)}"/>'
-            drawn.append(_group(part, f"part {colour[part['name']]}", q, ring + tick))
+            drawn.append(_group(parts, part, f"part {colour[part['name']]}", q, ring + tick))
     return "".join(drawn)
 
 
@@ -146,7 +157,8 @@ def _springs(outlines: dict[str, Any], q: Mapping[str, float]) -> str:
             curve = form.path(q.get(name, 0.0))
             part = html.escape(name, quote=True)
             kind = f'class="spring {colour[name]}" data-part="{part}" data-spring="{index}"'
-            drawn.append(f'<path {kind} d="{curve}"/><path class="anchor" d="M{_xy(form.fixed)}h0"/>')
+            held = f'<path {kind} d="{curve}"/><path class="anchor" d="M{_xy(form.fixed)}h0"/>'
+            drawn.append(_carried(outlines["parts"], parts[name], q, held))
     return "".join(drawn)
 
 
@@ -160,6 +172,9 @@ def described(outlines: dict[str, Any]) -> str:
             how = "turns about ({:.4g}, {:.4g})".format(*motion["center"])
         elif motion:
             how = "slides along ({:.4g}, {:.4g})".format(*motion["direction"])
+        carrier = part.get("carrier")
+        if motion and carrier and any(p["name"] == carrier and not p["frame"] for p in outlines["parts"]):
+            how += f" on {carrier}"
         unseen = "" if part["layers"] else " and has no outline in this plane"
         said.append(f"{part['name']} {how}{unseen}")
     return "; ".join(said) + "."
@@ -191,7 +206,7 @@ def picture(
     """
     parts, q = outlines["parts"], at or {}
     box = frame_box(outlines, [*poses, q])
-    inside = _bodies(parts, q) + _gears(parts, q) + _springs(outlines, q) + _axes(parts, outlines["size"])
+    inside = _bodies(parts, q) + _gears(parts, q) + _springs(outlines, q) + _axes(parts, q, outlines["size"])
     css = f"<style>{style}</style>" if style else ""
     space = 'xmlns="http://www.w3.org/2000/svg" ' if style else ""
     return (

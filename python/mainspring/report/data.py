@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 from mainspring.drawing.outline import number
+from mainspring.drawing.pose import chain
 from mainspring.drawing.spring import shape
 from mainspring.report.sampling import Film
 from mainspring.report.touching import Touching
@@ -16,6 +17,13 @@ def _motion(part: dict[str, Any]) -> dict[str, Any]:
     motion = part["motion"]
     kind = motion["kind"]
     return {"kind": kind, "at": motion["center" if kind == "turn" else "direction"]}
+
+
+def _chains(outlines: dict[str, Any]) -> dict[str, list[str]]:
+    """Return for every part that moves the parts whose motions it follows, from the frame outwards."""
+    parts = {part["name"]: part for part in outlines["parts"]}
+    found = {name: [part["name"] for part in chain(parts, name)] for name in parts}
+    return {name: names for name, names in found.items() if names}
 
 
 def _springs(outlines: dict[str, Any]) -> list[dict[str, Any]]:
@@ -35,6 +43,7 @@ def script_data(outlines: dict[str, Any], film: Film, touching: Touching, run: S
     data = {
         "size": outlines["size"],
         "parts": list(film.parts),
+        "chains": _chains(outlines),
         "motions": {p["name"]: _motion(p) for p in outlines["parts"] if p["motion"]},
         "springs": _springs(outlines),
         "t": [round(t, 5) for t in film.t.tolist()],

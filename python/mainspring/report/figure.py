@@ -5,7 +5,6 @@ import html
 from mainspring.drawing.palette import variables
 from mainspring.drawing.svg import colours
 from mainspring.machine import Mechanism
-from mainspring.pairs import find_pairs
 from mainspring.prediction import Prediction
 from mainspring.report.plots import Curve, curves, energy_curve, line, time_axis
 from mainspring.report.sampling import film
@@ -54,7 +53,7 @@ def motion_picture(mechanism: Mechanism, result: Simulation | Prediction) -> str
     """
     run = result.simulation if isinstance(result, Prediction) else result
     outlines = mechanism.outlines()
-    shown = film(find_pairs(mechanism), result)
+    shown = film(result)
     motions = {p["name"]: p["motion"]["kind"] for p in outlines["parts"] if p["motion"]}
     time, wide = time_axis(shown), _WIDTH - _LEFT - _RIGHT
     rows = [*curves(shown, motions, colours(outlines["parts"])), energy_curve(shown)]

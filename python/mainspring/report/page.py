@@ -83,7 +83,7 @@ def page(mechanism: Mechanism, result: Simulation | Prediction) -> str:
     outlines, found = mechanism.outlines(), find_pairs(mechanism)
     colour = colours(outlines["parts"])
     motions = {p["name"]: p["motion"]["kind"] for p in outlines["parts"] if p["motion"]}
-    shown = film(found, result)
+    shown = film(result)
     touched = touching(outlines, run.trajectory, shown)
     title = f"{mechanism.name} in motion"
     drawing = picture(outlines, title=title, poses=_poses(shown), extra=touch_marks(touched))

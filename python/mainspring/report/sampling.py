@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mainspring.pairs import Kinematics
 from mainspring.prediction import Prediction
 from mainspring.simulation import Simulation
 
@@ -64,20 +63,10 @@ def _moments(run: Simulation, loop: tuple[float, float] | None) -> Floats:
     return np.unique(np.clip(np.concatenate(pieces), 0.0, run.t))
 
 
-def kinetic_energy(found: Kinematics, parts: tuple[str, ...], v: Floats) -> Floats:
-    """Return the kinetic energy `(n,)` from velocities `(n, parts)`; subsystems count once, at their root."""
-    energy = np.zeros(len(v))
-    for system in found.subsystems:
-        if system.inertia and system.root in parts:
-            energy += 0.5 * system.inertia * v[:, parts.index(system.root)] ** 2
-    return energy
-
-
-def film(found: Kinematics, result: Simulation | Prediction) -> Film:
+def film(result: Simulation | Prediction) -> Film:
     """Choose the moments of a result and evaluate the motion there."""
     run = result.simulation if isinstance(result, Prediction) else result
     loop = loop_of(result)
     t = _moments(run, loop)
-    q, v = run.trajectory.at(t)
-    parts = run.trajectory.parts
-    return Film(parts, t, q, kinetic_energy(found, parts, v), loop)
+    motion = run.trajectory
+    return Film(motion.parts, t, motion.at(t).q, motion.kinetic_energy(t), loop)

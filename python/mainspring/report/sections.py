@@ -104,6 +104,7 @@ def energy(run: Simulation) -> str:
     lost = e.friction + e.impacts
     rows = [
         ("at the start", figure(e.initial, 8), ""),
+        *([("done by drives and torques", figure(e.work, 8), "")] if e.work else []),
         ("lost to friction", figure(e.friction, 8), _bar(e.friction, lost)),
         ("lost at impacts", figure(e.impacts, 8), _bar(e.impacts, lost)),
         ("at the end", figure(e.final, 8), ""),

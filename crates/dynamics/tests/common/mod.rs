@@ -5,7 +5,7 @@ pub mod overlap;
 
 use mainspring_dynamics::{Minimum, Options, Run, Simulation};
 use mainspring_geometry::{OutlineRecipe, Rigid3, Vec2};
-use mainspring_mechanism::{Body, Coordinate, Exclusion, Joint, Motion, System};
+use mainspring_mechanism::{Body, Coordinate, Exclusion, Joint, Mass, Motion, System};
 use mainspring_model::Machine;
 
 /// A coordinate with a spring `(constant, relaxed)`.
@@ -48,6 +48,16 @@ pub fn bodies(text: &str, joints: &[(&str, Joint)]) -> Vec<Body> {
             Body { name, chain, outline }
         })
         .collect()
+}
+
+/// The same with chains of joints, from the frame outwards.
+pub fn chained(text: &str, chains: &[(&str, &[Joint])]) -> Vec<Body> {
+    let mut found = bodies(text, &[]);
+    for body in &mut found {
+        let chain = chains.iter().find(|(n, _)| *n == body.name);
+        body.chain = chain.map_or(vec![], |(_, joints)| joints.to_vec());
+    }
+    found
 }
 
 /// Surfaces on which two bodies turn: circles about the same centre of the same radius.
@@ -105,12 +115,15 @@ pub fn system(coordinates: Vec<Coordinate>, text: &str, joints: &[(&str, Joint)]
     System::new(coordinates, bodies(text, joints), &[], size)
 }
 
-/// Runs to a time with a tolerance.
+/// Runs to a time with a tolerance, with the unpruned overlap check beside it: at every step and half way between,
+/// or at so many instants of a run that is longer.
 pub fn run(system: &System, until: f64, rtol: f64) -> Run {
     let source = system.direct_search();
     let mut run = Simulation::new(system, &source, Options { until, rtol, ..Options::default() });
     run.run(&mut |_| true);
-    run.into_run()
+    let run = run.into_run();
+    overlap::assert_free(system, &run);
+    run
 }
 
 /// Minima below 1e-5 of the greatest kinetic energy so far (those of Algorithm 12).
@@ -128,6 +141,50 @@ pub fn balanced(run: &Run) {
     let residual = run.energy.residual();
     assert!(residual.abs() < 1e-7, "energy residual {residual:e}: {:?}", run.energy);
     assert!(run.energy.friction >= 0.0 && run.energy.impacts >= 0.0, "{:?}", run.energy);
+}
+
+/// A mass on a chain of joints.
+pub fn on_chain(body: usize, mass: f64, center: (f64, f64), inertia: f64) -> Mass {
+    Mass { body, mass, center: Vec2::new(center.0, center.1), inertia, chained: true }
+}
+
+/// Integrates `y' = f(t, y)` by extrapolation of the midpoint rule (Gragg, Bulirsch, Stoer): eight halved substeps a step,
+/// independent of the method under test.
+pub fn extrapolate(
+    f: impl Fn(f64, &[f64]) -> Vec<f64>,
+    (from, to): (f64, f64),
+    start: &[f64],
+    steps: u32,
+) -> Vec<f64> {
+    let mut y = start.to_vec();
+    let h = (to - from) / f64::from(steps);
+    let add =
+        |y: &[f64], d: &[f64], h: f64| -> Vec<f64> { y.iter().zip(d).map(|(y, d)| y + h * d).collect() };
+    for k in 0..steps {
+        let t = from + h * f64::from(k);
+        let midpoint = |n: u32| {
+            let s = h / f64::from(n);
+            let (mut a, mut b) = (y.clone(), add(&y, &f(t, &y), s));
+            for i in 1..n {
+                let c = add(&a, &f(t + s * f64::from(i), &b), 2.0 * s);
+                (a, b) = (b, c);
+            }
+            let last = add(&b, &f(t + h, &b), s);
+            a.iter().zip(&last).map(|(a, c)| 0.5 * (a + c)).collect::<Vec<f64>>()
+        };
+        let counts: Vec<u32> = (1..=8).map(|i| 2 * i).collect();
+        let mut rows: Vec<Vec<f64>> = counts.iter().map(|n| midpoint(*n)).collect();
+        for order in 1..rows.len() {
+            for i in (order..rows.len()).rev() {
+                let ratio = (f64::from(counts[i]) / f64::from(counts[i - order])).powi(2);
+                let better: Vec<f64> =
+                    rows[i].iter().zip(&rows[i - 1]).map(|(a, b)| a + (a - b) / (ratio - 1.0)).collect();
+                rows[i] = better;
+            }
+        }
+        y = rows.pop().unwrap();
+    }
+    y
 }
 
 /// A generator of numbers in [low, high) that is the same everywhere.

@@ -54,6 +54,22 @@ pub fn assert_never_overlaps(system: &System, run: &Run, between: u32) {
     assert!(depth <= 1e-7 * system.size, "overlap {depth:e} at t = {t}");
 }
 
+/// Most instants at which [`assert_free`] looks.
+const INSTANTS: usize = 600;
+
+/// Asserts the same at every step's time and half way to the next, or at [`INSTANTS`] of them spread over the run.
+pub fn assert_free(system: &System, run: &Run) {
+    let times = &run.trajectory.times;
+    let halves = times.windows(2).map(|w| 0.5 * (w[0] + w[1]));
+    let all: Vec<f64> = times.iter().copied().chain(halves).collect();
+    let stride = all.len().div_ceil(INSTANTS).max(1);
+    for &t in all.iter().step_by(stride) {
+        let q: Vec<f64> = (0..system.coordinates.len()).map(|i| run.trajectory.state(i, t).q).collect();
+        let depth = depth_at(system, &q);
+        assert!(depth <= 1e-7 * system.size, "overlap {depth:e} at t = {t}");
+    }
+}
+
 /// Greatest depth of any body's boundary inside any other body at positions `q`.
 pub fn depth_at(system: &System, q: &[f64]) -> f64 {
     let bodies = &system.bodies;

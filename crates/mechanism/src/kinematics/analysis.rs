@@ -3,16 +3,16 @@
 use super::axial;
 use super::fits::Solid;
 use super::gears::{GearData, meshes};
-use super::lower::{MAX_MISSES, lower_pairs};
+use super::lower::{MAX_MISSES, MAX_NEIGHBOURS, lower_pairs};
 use super::mechanism::{CompileOptions, Warning};
 use super::mobility::{ClosedChain, Loops, loops, without};
 use super::near_miss::Miss;
 use super::pair::{Dropped, Freedom, Pair, PairKind};
 use super::patch::Scene;
 use super::plane::{self, WorkingPlane};
-use super::reach::Parts;
+use super::reach::{Parts, Placed};
 use super::subsystems::{Hold, holds};
-use mainspring_geometry::Csg;
+use mainspring_geometry::{Csg, Vec3};
 
 /// The shapes of all parts.
 pub(crate) struct Shapes<'a> {
@@ -52,9 +52,11 @@ pub(crate) fn analyse(
     misses.truncate(MAX_MISSES);
     misses.extend(meshes.misses);
     let mut warnings: Vec<Warning> = meshes.warnings.into_iter().map(plain).collect();
-    warnings.extend(lower.cut_short.iter().map(cut_short));
+    warnings.extend(cut_short(&lower.cut_short));
     let partly = "the parts have too many faces: near misses were not looked for everywhere";
     warnings.extend(lower.misses_cut_short.then(|| plain(partly.into())));
+    let crowded = format!("only the first {MAX_NEIGHBOURS} pairs of parts near each other were examined");
+    warnings.extend(lower.crowded.then(|| plain(crowded)));
     warnings.extend(many.then(|| plain(format!("only the first {MAX_MISSES} near misses are listed"))));
 
     let (loops, too_large) = loops(parts, frame, &pairs, size);
@@ -85,9 +87,15 @@ pub(crate) fn analyse(
     Found { pairs, misses, plane, closed_chains, mobility, warnings, rates }
 }
 
-fn cut_short(parts: &(usize, usize)) -> Warning {
-    let message = "these parts have too many faces against each other: only the first were examined".into();
-    Warning { place: None, parts: vec![parts.0, parts.1], message }
+fn cut_short(pairs: &[(usize, usize)]) -> Option<Warning> {
+    let &(first, second) = pairs.first()?;
+    let others = match pairs.len() - 1 {
+        0 => String::new(),
+        n => format!(" (and so have {n} other pairs of parts)"),
+    };
+    let message =
+        format!("these parts have too many faces against each other{others}: only the first were examined");
+    Some(Warning { place: None, parts: vec![first, second], message })
 }
 
 fn plain(message: String) -> Warning {
@@ -102,13 +110,23 @@ fn idle(
     loops: &[Loops],
 ) -> axial::Idle {
     let holds = holds(shapes.csgs.len(), frame, pairs);
-    axial::idle(&shapes.parts(&holds, pairs), plane.normal, loops, shapes.label)
+    axial::idle(&shapes.parts(&holds, pairs, plane.normal), loops, shapes.label)
 }
 
 impl Shapes<'_> {
-    pub(crate) fn parts<'a>(&'a self, holds: &'a [Option<Hold>], pairs: &'a [Pair]) -> Parts<'a> {
+    pub(crate) fn parts<'a>(
+        &'a self,
+        holds: &'a [Option<Hold>],
+        pairs: &'a [Pair],
+        normal: Vec3,
+    ) -> Parts<'a> {
         let Scene { primitives, boxes, tolerance, .. } = *self.scene;
-        Parts { primitives, boxes, csgs: self.csgs, leaves: self.leaves, holds, pairs, tolerance }
+        Parts::new(
+            Placed { primitives, boxes, csgs: self.csgs, leaves: self.leaves, tolerance },
+            holds,
+            pairs,
+            normal,
+        )
     }
 }
 

@@ -11,7 +11,6 @@ use super::mobility::Loops;
 use super::pair::{Freedom, Pair, PairKind};
 use super::reach::Parts;
 use super::surface::{parallel, perpendicular};
-use mainspring_geometry::Vec3;
 
 /// What the rule decides: freedoms to leave out, and pairs that keep two with the reason.
 #[derive(Debug, Default)]
@@ -20,7 +19,9 @@ pub(crate) struct Idle {
     pub kept: Vec<(usize, String)>,
 }
 
-pub(crate) fn idle(parts: &Parts<'_>, normal: Vec3, loops: &[Loops], label: &dyn Fn(u32) -> String) -> Idle {
+pub(crate) fn idle(parts: &Parts<'_>, loops: &[Loops], label: &dyn Fn(u32) -> String) -> Idle {
+    let normal = parts.normal;
+    let tilted: Vec<Vec<usize>> = (0..parts.placed.leaves.len()).map(|p| parts.tilted(p)).collect();
     let mut result = Idle::default();
     let mut wanted: Vec<(usize, Freedom)> = Vec::new();
     for (index, pair) in parts.pairs.iter().enumerate().filter(|(_, p)| p.kind == PairKind::Cylindrical) {
@@ -28,7 +29,7 @@ pub(crate) fn idle(parts: &Parts<'_>, normal: Vec3, loops: &[Loops], label: &dyn
         if perpendicular(d, normal) {
             wanted.push((index, Freedom::Turning));
         } else if parallel(d, normal) {
-            match axial_contact(parts, pair, normal) {
+            match axial_contact(parts, pair, &tilted) {
                 None => wanted.push((index, Freedom::Sliding)),
                 Some(i) => result.kept.push((index, format!("{} may be touched along the axis", label(i)))),
             }
@@ -63,15 +64,16 @@ fn one_by_one(l: &Loops, wanted: &[(usize, Freedom)]) -> Vec<(usize, Freedom)> {
 }
 
 /// A primitive that may be touched along the axis of the pair.
-fn axial_contact(parts: &Parts<'_>, pair: &Pair, normal: Vec3) -> Option<u32> {
+fn axial_contact(parts: &Parts<'_>, pair: &Pair, tilted: &[Vec<usize>]) -> Option<u32> {
     let (a, b) = pair.parts;
     let moving = |p: usize| parts.holds[p].is_some();
     for m in [a, b].into_iter().filter(|p| moving(*p)) {
-        for c in (0..parts.leaves.len()).filter(|c| *c != m) {
-            let tilted = |p: usize, other: usize| {
-                parts.tilted(p, normal).find(|&i| parts.can_meet((p, i), other, normal))
+        for c in (0..tilted.len()).filter(|c| *c != m) {
+            let near = |p: usize, other: usize| {
+                let k = tilted[p].iter().find(|&&k| parts.can_meet((p, k), other))?;
+                Some(parts.placed.leaves[p][*k])
             };
-            if let Some(i) = tilted(m, c).or_else(|| tilted(c, m)) {
+            if let Some(i) = near(m, c).or_else(|| near(c, m)) {
                 return Some(i);
             }
         }

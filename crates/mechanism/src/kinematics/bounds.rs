@@ -50,6 +50,12 @@ impl Bounds {
         Bounds { low: least(self.low, o.low), high: -least(-self.high, -o.high) }
     }
 
+    /// What two boxes share; empty if they do not touch.
+    pub(crate) fn common(&self, o: &Self) -> Self {
+        let most = |a: Vec3, b: Vec3| Vec3::new(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z));
+        Bounds { low: most(self.low, o.low), high: -most(-self.high, -o.high) }
+    }
+
     /// The same box with every face moved out by `margin`.
     pub(crate) fn grown(&self, margin: f64) -> Self {
         let m = Vec3::new(margin, margin, margin);

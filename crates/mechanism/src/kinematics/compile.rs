@@ -4,7 +4,9 @@ use super::analysis::{Found, Shapes, analyse};
 use super::bounds::Bounds;
 use super::fits::Solid;
 use super::gears::{GearData, Member, is_internal};
+use super::joint_forces::JointForces;
 use super::lower::{RELATIVE_TOLERANCE, solid};
+use super::masses::PartMass;
 use super::mechanism::{CompileOptions, Mechanism, Part, Warning};
 use super::near_miss::{Miss, NearMiss};
 use super::patch::Scene;
@@ -17,7 +19,8 @@ use super::surface::lateral;
 use super::symmetry::symmetries;
 use super::words;
 use super::work::Work;
-use mainspring_geometry::{Csg, Outline, OutlineError, OutlineRecipe, Primitive};
+use crate::forces::ContactLaw;
+use mainspring_geometry::{Csg, Outline, OutlineBudget, OutlineError, OutlineRecipe, Primitive, Vec3};
 use mainspring_model::{Error, Machine, Values};
 use std::sync::Arc;
 
@@ -45,13 +48,13 @@ impl Mechanism {
 }
 
 /// Bound on the search for pairs.
-const MAX_WORK: u64 = 12_000_000;
+const MAX_WORK: u64 = 8_000_000;
 /// Bound on the work for one gear, of that for all.
 const MAX_GEAR_WORK: u64 = 4_000_000;
 
 fn no_frame(machine: &Machine) -> Error {
     let place = machine.parts().first().map_or(Default::default(), |p| p.place);
-    machine.error(place, "no part is marked as the frame, expected a line like: attr frame : frame = 1")
+    machine.error(place, "no part is marked as the frame; expected a line like: attr frame : frame = 1")
 }
 
 fn assemble(
@@ -66,7 +69,7 @@ fn assemble(
     let solids: Vec<Solid<'_>> = models.iter().map(|p| solid(&primitives, &boxes, &p.csg)).collect();
     let size = solids.iter().fold(Bounds::EMPTY, |b, s| b.join(&s.bounds)).diagonal();
     if !size.is_finite() {
-        let message = "the machine's size overflows, expected lengths below 1e150".to_string();
+        let message = "the machine's size overflows; expected lengths below 1e150".to_string();
         return Err(machine.error(models[frame].place, message));
     }
     let tolerance = RELATIVE_TOLERANCE * size;
@@ -86,10 +89,11 @@ fn assemble(
     let holds = holds(models.len(), frame, &pairs);
     let mut subsystems = subsystems(&holds, &pairs);
     rates.iter().for_each(|r| join(&mut subsystems, r, &holds, &pairs));
+    let mut budget = OutlineBudget::default();
+    let around = shapes.parts(&holds, &pairs, plane.normal);
     let parts: Vec<Part> = (0..models.len())
         .map(|i| {
-            let Section { outline, recipe, note, tilted } =
-                section(&shapes.parts(&holds, &pairs), i, &plane, &label);
+            let Section { outline, recipe, note, tilted } = section(&around, i, &plane, &label, &mut budget);
             Part {
                 name: name(i),
                 is_frame: i == frame,
@@ -101,8 +105,10 @@ fn assemble(
                 carrier: holds[i].map(|h| h.carrier),
                 inertia: None,
                 inertia_from_density: false,
+                mass: PartMass::default(),
                 friction: 0.0,
                 spring: None,
+                forces: JointForces::default(),
                 position: 0.0,
                 velocity: 0.0,
                 outline,
@@ -114,6 +120,9 @@ fn assemble(
         })
         .collect();
     let mut warnings = warnings;
+    for w in warnings.iter_mut().filter(|w| w.parts.len() == 2) {
+        w.message = format!("{} and {}: {}", name(w.parts[0]), name(w.parts[1]), w.message);
+    }
     warnings.extend(parts.iter().enumerate().filter_map(left_out));
     let near_misses = misses.iter().map(|m| near_miss(m, &name)).collect();
     let numbers = values.as_slice();
@@ -131,6 +140,8 @@ fn assemble(
         closed_chains,
         mobility,
         plane,
+        gravity: Vec3::default(),
+        contact: ContactLaw::default(),
         warnings,
         size,
         primitives,
@@ -161,7 +172,7 @@ fn gear_data(
         let members = gear.members.iter().filter_map(of).collect();
         if scene.work.ran_out() {
             let message = format!(
-                "{} has too many primitives to tell on which side its teeth are, expected fewer",
+                "{} has too many primitives to tell on which side its teeth are; expected fewer",
                 gear.name
             );
             return Err(machine.error(gear.place, message));
@@ -187,21 +198,28 @@ struct Section {
 }
 
 /// Primitives that are no prisms along the normal and out of everybody's reach are left out of the section.
-fn section(parts: &Parts<'_>, part: usize, plane: &WorkingPlane, label: &impl Fn(u32) -> String) -> Section {
+fn section(
+    parts: &Parts<'_>,
+    part: usize,
+    plane: &WorkingPlane,
+    label: &impl Fn(u32) -> String,
+    budget: &mut OutlineBudget,
+) -> Section {
     let pose = &plane.plane_from_machine;
-    let find = |csg: &Csg| OutlineRecipe::find(parts.primitives, csg, pose);
-    let mut found = find(parts.csgs[part]);
+    let mut find =
+        |csg: &Csg| budget.half(|b| OutlineRecipe::find_within(parts.placed.primitives, csg, pose, b));
+    let mut found = find(parts.placed.csgs[part]);
     let mut note = None;
     if matches!(found, Err(OutlineError::NotPrismatic { .. })) {
-        let unreached = parts.unreached(part, plane.normal);
+        let unreached = parts.unreached(part);
         if let Some(first) = unreached.first() {
-            found = find(&without_leaves(parts.csgs[part], &unreached));
+            found = find(&without_leaves(parts.placed.csgs[part], &unreached));
             note = Some(format!("{} is left out of the section: nothing can reach it", label(*first)));
         }
     }
     match found {
         Ok(recipe) => {
-            let outline = Some(recipe.evaluate(parts.primitives, pose));
+            let outline = Some(recipe.evaluate(parts.placed.primitives, pose));
             Section { outline, recipe: Some(recipe), note, tilted: None }
         }
         Err(OutlineError::NotPrismatic { primitive, .. }) => {

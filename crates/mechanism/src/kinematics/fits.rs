@@ -53,6 +53,13 @@ const FACE_PAIR: usize = 16;
 /// Of faces across the axis only the largest are examined.
 const MAX_END_PAIRS: usize = 500;
 
+/// How far outside a part's box another may lie that is still a near miss of one of its cylinders, with the
+/// surfaces on which that is judged: radii differ by a third of the smaller one at most.
+pub(crate) fn near_reach(solid: &Solid<'_>) -> f64 {
+    let radii = NEAR_OFFSET + NEAR_RADIUS / (1.0 - NEAR_RADIUS);
+    solid.laterals.iter().map(|l| NEAR_GAP * l.height + radii * l.radius).fold(0.0, f64::max)
+}
+
 pub(crate) fn shafts(
     scene: &Scene<'_>,
     solids: [&Solid<'_>; 2],

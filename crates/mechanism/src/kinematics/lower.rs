@@ -1,8 +1,10 @@
 //! All lower pairs of a machine, and what nearly was one.
 
 use super::bounds::Bounds;
-use super::fits::Solid;
+use super::fits::{Solid, near_reach};
+use super::local::{local, nearby};
 use super::near_miss::{Miss, relevant};
+use super::neighbours::neighbours;
 use super::pair::Pair;
 use super::patch::{Scene, Site};
 use super::search::{self, Found};
@@ -17,15 +19,20 @@ pub(crate) struct Lower {
     pub cut_short: Vec<(usize, usize)>,
     /// Near misses were not looked for everywhere.
     pub misses_cut_short: bool,
+    /// More parts are near each other than are examined.
+    pub crowded: bool,
 }
 
 /// A point is on a surface within this part of the machine's size.
 pub(crate) const RELATIVE_TOLERANCE: f64 = 1e-9;
 
-/// Bound on the work for two parts, of that for all.
-const PAIR_WORK: u64 = 6_000_000;
+/// Bound on the work for the surfaces of two parts, and again for what they leave free; of that for all.
+pub(crate) const PAIR_WORK: u64 = 6_000_000;
 /// Bound on the work for a near miss.
 const MISS_WORK: u64 = 1_000_000;
+
+/// Parts near each other that are examined, two by two.
+pub(crate) const MAX_NEIGHBOURS: usize = 100_000;
 
 /// Near misses told of one machine.
 pub(crate) const MAX_MISSES: usize = 200;
@@ -46,15 +53,18 @@ pub(crate) fn solid<'a>(primitives: &[Primitive], boxes: &[Bounds], csg: &'a Csg
 
 pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f64) -> Lower {
     let mut findings = Vec::new();
-    for j in 1..solids.len() {
-        for i in 0..j {
-            scene.work.open(PAIR_WORK);
-            let mut finding = search::find(scene, [&solids[i], &solids[j]], (i, j), clearance);
-            finding.too_many_faces |= scene.work.ran_out();
-            let near = solids[i].bounds.touches(&solids[j].bounds);
-            if near || finding.too_many_faces || finding.says_something() {
-                findings.push(((i, j), finding));
-            }
+    // Parts further from each other than this form no pair and miss none.
+    let reach = |s: &Solid<'_>| s.bounds.grown(near_reach(s) + clearance + 2.0 * scene.tolerance);
+    let reaches: Vec<Bounds> = solids.iter().map(reach).collect();
+    let candidates = neighbours(&reaches, MAX_NEIGHBOURS);
+    for (i, j) in candidates.pairs {
+        scene.work.open(PAIR_WORK);
+        let zone = reaches[i].common(&reaches[j]).grown(4.0 * scene.tolerance);
+        let mut finding = find(scene, [&solids[i], &solids[j]], (i, j), clearance, &zone);
+        finding.too_many_faces |= scene.work.ran_out() || !scene.work.spend(1);
+        let near = solids[i].bounds.touches(&solids[j].bounds);
+        if near || finding.too_many_faces || finding.says_something() {
+            findings.push(((i, j), finding));
         }
     }
     findings.sort_by_key(|(parts, _)| *parts);
@@ -74,7 +84,21 @@ pub(crate) fn lower_pairs(scene: &Scene<'_>, solids: &[Solid<'_>], clearance: f6
     }
     let cut_short = findings.iter().filter(|(_, f)| f.too_many_faces).map(|(parts, _)| *parts).collect();
     let pairs = findings.into_iter().filter_map(|(_, f)| f.pair).map(|f| f.pair).collect();
-    Lower { pairs, misses, cut_short, misses_cut_short }
+    Lower { pairs, misses, cut_short, misses_cut_short, crowded: candidates.cut_short }
+}
+
+/// Both parts are searched where they are near each other.
+fn find(
+    scene: &Scene<'_>,
+    solids: [&Solid<'_>; 2],
+    parts: (usize, usize),
+    clearance: f64,
+    zone: &Bounds,
+) -> search::Finding {
+    let csgs = solids.map(|s| nearby(scene, s, zone));
+    let [a, b] = [0, 1].map(|k| csgs[k].as_ref().map(|csg| local(scene, solids[k], csg, zone)));
+    let near = [a.as_ref().unwrap_or(solids[0]), b.as_ref().unwrap_or(solids[1])];
+    search::find(scene, near, solids, parts, clearance)
 }
 
 /// A fit that leaves a way out holds only while something keeps the part in it: it makes a pair for a part that has

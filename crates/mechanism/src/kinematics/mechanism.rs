@@ -1,13 +1,16 @@
 //! The compiled machine: immutable numbers at given parameter values.
 
 use super::bounds::Bounds;
+use super::joint_forces::JointForces;
+use super::masses::PartMass;
 use super::mobility::ClosedChain;
 use super::near_miss::NearMiss;
 use super::pair::Pair;
 use super::plane::WorkingPlane;
 use super::subsystems::Subsystem;
 use super::symmetry::Symmetry;
-use mainspring_geometry::{Csg, Outline, OutlineRecipe, Primitive};
+use crate::forces::ContactLaw;
+use mainspring_geometry::{Csg, Outline, OutlineRecipe, Primitive, Vec3};
 use mainspring_model::{Machine, Place};
 use std::sync::Arc;
 
@@ -55,9 +58,13 @@ pub struct Part {
     pub inertia: Option<f64>,
     /// The inertia was computed from the density.
     pub inertia_from_density: bool,
+    /// As far as known; a density is looked at where the inertia, a moving carrier or gravity asks for it.
+    pub mass: PartMass,
     /// Torque per angular velocity (radians), or force per velocity.
     pub friction: f64,
     pub spring: Option<JointSpring>,
+    /// What else acts along its joint.
+    pub forces: JointForces,
     /// Joint position at the start: radians, or the file's length.
     pub position: f64,
     /// Joint velocity at the start.
@@ -103,6 +110,10 @@ pub struct Mechanism {
     /// Independent motions of the whole machine, as far as it was examined.
     pub mobility: usize,
     pub plane: WorkingPlane,
+    /// Acceleration of the uniform field in machine coordinates; 0 if none was given.
+    pub gravity: Vec3,
+    /// Constants of compliant contact.
+    pub contact: ContactLaw,
     pub warnings: Vec<Warning>,
     /// Diagonal of the box around all parts: tolerances are relative to it.
     pub size: f64,

@@ -1,5 +1,6 @@
 //! Kinematics: from the shapes of the parts to pairs, mobility and subsystems (Gelsey 1995, Section 2.1).
 
+mod acting;
 mod analysis;
 mod axial;
 mod bounds;
@@ -9,11 +10,15 @@ mod cylinder_fit;
 mod fit;
 mod fits;
 mod gears;
+mod joint_forces;
 mod linear;
+mod local;
 mod lower;
+mod masses;
 mod mechanism;
 mod mobility;
 mod near_miss;
+mod neighbours;
 mod pair;
 mod patch;
 mod placement;
@@ -34,6 +39,8 @@ mod words;
 mod work;
 
 pub use bounds::Bounds;
+pub use joint_forces::{JointDrive, JointForces};
+pub use masses::PartMass;
 pub use mechanism::{CompileOptions, JointSpring, Mechanism, Part, Warning};
 pub use mobility::ClosedChain;
 pub use near_miss::NearMiss;

@@ -2,12 +2,16 @@
 
 use super::bounds::Bounds;
 use super::chain::turn;
+use super::lower::MAX_NEIGHBOURS;
 use super::mechanism::{Mechanism, Warning};
-use super::pair::{EvidenceKind, PairKind};
-use super::start::{Envelopes, Start};
+use super::neighbours::neighbours;
+use super::pair::{EvidenceKind, Pair, PairKind};
+use super::start::{Envelopes, Extent, Start};
 use super::work::Work;
-use mainspring_geometry::{Primitive, Rigid3, Vec3};
+use mainspring_geometry::{OutlineBudget, Primitive, Rigid3, Vec3};
 use mainspring_model::Error;
+use std::cell::Cell;
+use std::collections::BTreeMap;
 
 /// Bound on the scans for overlaps.
 const MAX_WORK: u64 = 8_000_000;
@@ -54,31 +58,38 @@ impl Mechanism {
     pub(crate) fn check_start(&self) -> Result<Option<Warning>, Error> {
         let primitives = self.start_primitives();
         let boxes: Vec<Bounds> = primitives.iter().map(Bounds::of).collect();
-        let around = |csg: &mainspring_geometry::Csg| {
-            csg.leaves().fold(Bounds::EMPTY, |b, i| b.join(&boxes[i as usize]))
-        };
-        let bounds: Vec<Bounds> = self.parts.iter().map(|p| around(&p.csg)).collect();
+        let plane = &self.plane.plane_from_machine;
+        let csgs = self.parts.iter().map(|p| &p.csg);
+        let extents: Vec<Extent<'_>> = csgs.map(|c| Extent::of(c, &primitives, &boxes, plane)).collect();
+        let bounds: Vec<Bounds> = extents.iter().map(|e| e.bounds).collect();
         let start = Start {
             primitives: &primitives,
             boxes: &boxes,
-            plane_from_machine: self.plane.plane_from_machine,
+            plane_from_machine: *plane,
             tolerance: self.tolerance,
             work: Work::new(MAX_WORK),
+            budget: Cell::new(OutlineBudget::default().halved()),
         };
+        let gears = self.pairs.iter().filter(|p| p.kind == PairKind::Gear);
+        let mut meshes: BTreeMap<(usize, usize), Vec<Envelopes>> = BTreeMap::new();
+        gears.for_each(|p| meshes.entry(p.parts).or_default().extend(self.envelopes(p)));
         let mut unchecked = Vec::new();
-        for j in 1..self.parts.len() {
-            for i in 0..j {
-                let (a, b) = (&self.parts[i], &self.parts[j]);
-                let meshes = self.envelopes(i, j);
-                if let Some(clash) = start.clash(&a.csg, &b.csg, [&bounds[i], &bounds[j]], &meshes) {
-                    return Err(self.clash_error(i, j, clash.point));
-                }
-                if start.work.ran_out() {
-                    unchecked.push((i, j));
-                }
+        let touching = neighbours(&bounds, MAX_NEIGHBOURS);
+        for (i, j) in touching.pairs {
+            let meshes = meshes.get(&(i, j)).map_or(&[][..], |m| m);
+            if let Some(clash) = start.clash([&extents[i], &extents[j]], meshes) {
+                return Err(self.clash_error(i, j, clash.point));
+            }
+            if start.work.ran_out() {
+                unchecked.push((i, j));
             }
         }
-        Ok(self.unchecked(&unchecked))
+        let crowded = touching.cut_short.then(|| {
+            let message =
+                format!("only the first {MAX_NEIGHBOURS} pairs of touching boxes were checked for overlap");
+            Warning { place: None, parts: vec![], message }
+        });
+        Ok(self.unchecked(&unchecked).or(crowded))
     }
 
     fn unchecked(&self, pairs: &[(usize, usize)]) -> Option<Warning> {
@@ -98,7 +109,7 @@ impl Mechanism {
         let near = self.near_misses.iter().find(|m| m.parts == (i, j));
         let hint = near.map_or(String::new(), |m| format!(" (near miss: {})", m.reason));
         let message = format!(
-            "{} and {} overlap at the start, near ({}, {}, {}), expected parts that at most touch{hint}",
+            "{} and {} overlap at the start, near ({}, {}, {}); expected parts that at most touch{hint}",
             self.parts[i].name,
             self.parts[j].name,
             n(p.x),
@@ -108,8 +119,7 @@ impl Mechanism {
         self.machine.error(self.machine.parts()[j].place, message)
     }
 
-    fn envelopes(&self, i: usize, j: usize) -> Vec<Envelopes> {
-        let gears = self.pairs.iter().filter(|p| p.kind == PairKind::Gear && p.parts == (i, j));
+    fn envelopes(&self, gears: &Pair) -> Vec<Envelopes> {
         let of = |e: &super::pair::Evidence| {
             let [a, b] = e.primitives;
             let radius = |i: u32| Bounds::of(&self.primitives[i as usize]).diagonal();
@@ -121,6 +131,6 @@ impl Mechanism {
                 _ => None,
             }
         };
-        gears.flat_map(|p| p.evidence.iter().filter_map(of)).collect()
+        gears.evidence.iter().filter_map(of).collect()
     }
 }

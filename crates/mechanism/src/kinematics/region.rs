@@ -155,9 +155,14 @@ fn reduced(csg: &Csg, mut keep: impl FnMut(u32) -> Option<u32>) -> Csg {
     Csg { ops }
 }
 
-/// The expression with some leaves taken as empty.
+/// The expression with all leaves but some taken as empty.
+pub(crate) fn with_leaves(csg: &Csg, keep: impl Fn(u32) -> bool) -> Csg {
+    reduced(csg, |i| keep(i).then_some(i))
+}
+
+/// The expression with some leaves taken as empty; they are given in ascending order.
 pub(crate) fn without_leaves(csg: &Csg, left_out: &[u32]) -> Csg {
-    reduced(csg, |i| (!left_out.contains(&i)).then_some(i))
+    with_leaves(csg, |i| left_out.binary_search(&i).is_err())
 }
 
 /// Signed distance inside a wall (to first order), and its rate along a direction.
@@ -184,6 +189,11 @@ impl Member {
         if !self.bounds.holds(p, tolerance) {
             return false;
         }
+        // Most points are clearly inside or outside.
+        let depth = self.depth(p);
+        if depth.abs() > tolerance {
+            return depth > 0.0;
+        }
         let (walls, n) = self.walls(p, d);
         let round = match self.shape {
             Shape::Cylinder { .. } => 2,
@@ -199,11 +209,27 @@ impl Member {
 
     /// Is the point inside or on the boundary, to the tolerance?
     pub(crate) fn reaches(&self, p: Vec3, tolerance: f64) -> bool {
-        if !self.bounds.holds(p, tolerance) {
-            return false;
+        self.bounds.holds(p, tolerance) && self.depth(p) > -tolerance
+    }
+
+    /// Signed distance inside the nearest wall (to first order): the least slack of [`Member::walls`].
+    fn depth(&self, p: Vec3) -> f64 {
+        let q = self.local_from_machine.apply(p);
+        match self.shape {
+            Shape::Block { x, y, z } => q.x.min(x - q.x).min(q.y.min(y - q.y)).min(q.z.min(z - q.z)),
+            Shape::Cylinder { radius, height } => {
+                q.z.min(height - q.z).min(radius - (q.x * q.x + q.y * q.y).sqrt())
+            }
+            Shape::Cone { radius, height } => {
+                let lateral = radius * (1.0 - q.z / height) - (q.x * q.x + q.y * q.y).sqrt();
+                q.z.min(lateral * (height / radius.hypot(height)))
+            }
+            Shape::Sphere { radius } => radius - q.norm(),
+            Shape::Wedge { x, y, z } => {
+                let k = x * z / x.hypot(z);
+                q.x.min(k * (1.0 - q.x / x - q.z / z)).min(q.y.min(y - q.y)).min(q.z)
+            }
         }
-        let (walls, n) = self.walls(p, Vec3::new(1.0, 0.0, 0.0));
-        walls[..n].iter().all(|&(slack, _)| slack > -tolerance)
     }
 
     fn walls(&self, p: Vec3, d: Vec3) -> ([Wall; 6], usize) {

@@ -5,35 +5,60 @@ use super::pair::PairKind;
 use super::subsystems::Subsystem;
 use super::surface::{parallel, perpendicular};
 use crate::interaction::{Exclusion, System};
-use crate::system::{Body, Coordinate, Joint, Motion};
+use crate::system::{Body, Coordinate, Motion};
 use mainspring_geometry::Vec2;
 use mainspring_model::Error;
+
+/// Greatest friction, spring constant and force over the inertia, in the file's units.
+const MAX_RATE: f64 = 1e100;
 
 impl Mechanism {
     /// Everything contact and motion need.
     ///
     /// # Errors
-    /// As [`Mechanism::coordinates`] and [`Mechanism::bodies`].
+    /// As [`Mechanism::coordinates`], [`Mechanism::forces`] and [`Mechanism::bodies`].
     pub fn system(&self) -> Result<System, Error> {
-        let (coordinates, bodies) = (self.coordinates()?, self.bodies()?);
-        Ok(System::new(coordinates, bodies, &self.exclusions(), self.size))
+        let (coordinates, forces, bodies) = (self.coordinates()?, self.forces()?, self.bodies()?);
+        Ok(System::new(coordinates, bodies, &self.exclusions(), self.size).with_forces(forces))
     }
 
-    /// One coordinate for each subsystem, with inertia, friction and springs seen at its root.
+    /// One coordinate for each subsystem, with inertia, friction, springs and constant forces seen at its root.
+    /// Parts on chains of two joints or more have their inertia in [`Mechanism::forces`].
     ///
     /// # Errors
-    /// What inspection allows and simulation cannot do: a part without a pair with the frame, closed chains, pairs
-    /// with two freedoms, motion that is not planar, gears that lock each other, an inertia that is not known.
+    /// What inspection allows and simulation cannot do: a part that hangs on nothing, closed chains, chains of more
+    /// than [`crate::MAX_CHAIN`] joints, pairs with two freedoms, motion that is not planar, gears that lock each other or
+    /// are carried differently, an inertia that is not known.
     pub fn coordinates(&self) -> Result<Vec<Coordinate>, Error> {
-        self.check_planar()?;
-        self.check_chains()?;
-        for part in (0..self.parts.len()).filter(|p| *p != self.frame) {
-            self.check_part(part)?;
+        self.check_motion()?;
+        (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_inertia(p))?;
+        let mut coordinates: Vec<Coordinate> = self.subsystems.iter().map(|s| self.coordinate(s)).collect();
+        for part in 0..self.parts.len() {
+            let chain = self.chain(part);
+            let Some(inertia) = self.constant_inertia(part, &chain)? else { continue };
+            let c = &mut coordinates[chain[0].coordinate];
+            c.inertia += inertia;
+            c.force += self.constant_gravity(part, &chain);
         }
-        self.subsystems.iter().map(|s| self.coordinate(s)).collect()
+        self.check_finite(coordinates)
     }
 
-    fn fail<T>(&self, part: usize, message: String) -> Result<T, Error> {
+    /// The same machine for questions of reach alone, which inertias, friction and springs do not answer.
+    pub(crate) fn system_of_shapes(&self) -> Result<System, Error> {
+        self.check_motion()?;
+        let coordinates = self.subsystems.iter().map(|s| self.coordinate(s)).collect();
+        Ok(System::new(coordinates, self.bodies()?, &self.exclusions(), self.size))
+    }
+
+    /// Can every part move in the plane, with one freedom of its own?
+    fn check_motion(&self) -> Result<(), Error> {
+        self.check_planar()?;
+        self.check_carriers()?;
+        self.check_chains()?;
+        (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_joint(p))
+    }
+
+    pub(crate) fn fail<T>(&self, part: usize, message: String) -> Result<T, Error> {
         Err(self.machine.error(self.parts[part].place, message))
     }
 
@@ -45,14 +70,18 @@ impl Mechanism {
             let moving = if pair.parts.0 == self.frame { pair.parts.1 } else { pair.parts.0 };
             let names = format!("{} and {}", self.parts[pair.parts.0].name, self.parts[pair.parts.1].name);
             if turns && slides {
+                // Where shapes that are no prisms kept the second freedom, they are what has to change.
+                if self.plane.planar {
+                    self.check_outlines()?;
+                }
                 let message = format!(
-                    "{names} form a cylindrical pair with two freedoms, expected one (it may turn and slide)"
+                    "{names} form a cylindrical pair with two freedoms; expected one (it may turn and slide)"
                 );
                 return self.fail(moving, message);
             }
             if (turns && !parallel(d, n)) || (slides && !perpendicular(d, n)) {
                 let message = format!(
-                    "{names} do not move in the plane in which the others move, expected planar motion"
+                    "{names} do not move in the plane in which the others move; expected planar motion"
                 );
                 return self.fail(moving, message);
             }
@@ -66,59 +95,47 @@ impl Mechanism {
         let first = chain.parts.iter().copied().find(|p| *p != self.frame).unwrap_or(self.frame);
         let names = names.join(", ");
         let message = if chain.gears_only {
-            format!("the gears of {names} lock each other, expected ratios that agree")
+            format!("the gears of {names} lock each other; expected ratios that agree")
         } else {
-            format!("{names} form a closed chain of pairs, expected an open one")
+            format!("{names} form a closed chain of pairs; expected an open one")
         };
         self.fail(first, message)
     }
 
-    fn check_part(&self, i: usize) -> Result<(), Error> {
+    fn check_joint(&self, i: usize) -> Result<(), Error> {
         let part = &self.parts[i];
-        let (Some(joint), Some(carrier)) = (part.joint, part.carrier) else {
+        if part.joint.is_none() {
             let message =
-                format!("{} has no pair with the frame, expected one it turns or slides in", part.name);
-            return self.fail(i, message);
-        };
-        if !self.stands(carrier) {
-            let message = format!(
-                "{} has no pair with the frame, only one with {}, expected one it turns or slides in",
-                part.name, self.parts[carrier].name
-            );
+                format!("{} has no pair with the frame; expected one it turns or slides in", part.name);
             return self.fail(i, message);
         }
+        Ok(())
+    }
+
+    fn check_inertia(&self, i: usize) -> Result<(), Error> {
+        let part = &self.parts[i];
+        let moves = part.joint.is_some_and(|j| self.pairs[j].kind != PairKind::Fixed);
         match part.inertia {
-            None if self.pairs[joint].kind != PairKind::Fixed => {
+            None if moves => {
                 let message = format!(
-                    "the inertia of {} is not known, expected a line of the supplement or a density",
+                    "the inertia of {} is not known; expected a line of the supplement or a density",
                     part.name
                 );
                 self.fail(i, message)
             }
             Some(inertia) if !(inertia > 0.0 && inertia.is_finite()) => {
-                self.fail(i, format!("the inertia of {} is {inertia}, expected a positive number", part.name))
+                self.fail(i, format!("the inertia of {} is {inertia}; expected a positive number", part.name))
             }
             _ => Ok(()),
         }
     }
 
-    /// Is it the frame, or fixed to it?
-    fn stands(&self, part: usize) -> bool {
-        let mut at = part;
-        for _ in 0..self.parts.len() {
-            match (self.parts[at].joint, self.parts[at].carrier) {
-                (Some(j), Some(c)) if self.pairs[j].kind == PairKind::Fixed => at = c,
-                _ => break,
-            }
-        }
-        at == self.frame
-    }
-
-    fn coordinate(&self, s: &Subsystem) -> Result<Coordinate, Error> {
+    /// Without its inertia: friction, springs, constant torques and forces, start.
+    fn coordinate(&self, s: &Subsystem) -> Coordinate {
         let root = &self.parts[s.root];
         let mut c = Coordinate {
             name: root.name.clone(),
-            inertia: s.inertia.unwrap_or(0.0),
+            inertia: 0.0,
             damping: 0.0,
             stiffness: 0.0,
             force: 0.0,
@@ -129,6 +146,7 @@ impl Mechanism {
         for &(part, r) in &s.parts {
             let part = &self.parts[part];
             c.damping += part.friction * r * r;
+            c.force += part.forces.torque * r;
             if let Some(spring) = part.spring {
                 let k = spring.constant;
                 c.stiffness += k * r * r;
@@ -136,13 +154,35 @@ impl Mechanism {
                 c.energy_at_zero += 0.5 * k * spring.relaxed * spring.relaxed;
             }
         }
-        if c.inertia > 0.0 && [c.inertia, c.stiffness, c.force, c.damping].iter().all(|x| x.is_finite()) {
-            return Ok(c);
+        c
+    }
+
+    fn check_finite(&self, coordinates: Vec<Coordinate>) -> Result<Vec<Coordinate>, Error> {
+        for (c, s) in coordinates.iter().zip(&self.subsystems) {
+            if ![c.inertia, c.stiffness, c.force, c.damping].iter().all(|x| x.is_finite()) {
+                let message = format!(
+                    "the values of {} overflow; expected finite inertia, friction and spring",
+                    c.name
+                );
+                return self.fail(s.root, message);
+            }
+            self.check_rates(c, s.root)?;
         }
-        self.fail(
-            s.root,
-            format!("the values of {} overflow, expected finite inertia, friction and spring", c.name),
-        )
+        Ok(coordinates)
+    }
+
+    /// Squares of rates must be finite, or the motion is not. Coordinates of chains alone have no inertia of their own.
+    fn check_rates(&self, c: &Coordinate, root: usize) -> Result<(), Error> {
+        let rates = [(c.damping, "friction"), (c.stiffness, "spring constant"), (c.force, "spring's force")];
+        let too_large = |(value, _): &&(f64, &str)| (value / c.inertia).abs() > MAX_RATE;
+        let Some((value, what)) = rates.iter().find(too_large).filter(|_| c.inertia > 0.0) else {
+            return Ok(());
+        };
+        let message = format!(
+            "the {what} of {} is {value:e}, its inertia {:e}; expected a ratio below {MAX_RATE:e}",
+            c.name, c.inertia
+        );
+        self.fail(root, message)
     }
 
     /// The parts as contact sees them, in the working plane, in the order of [`Mechanism::parts`].
@@ -157,19 +197,11 @@ impl Mechanism {
     fn body(&self, i: usize) -> Body {
         let part = &self.parts[i];
         let outline = part.outline.clone().unwrap_or_default();
-        let (mut chain, mut at) = (Vec::new(), i);
-        for _ in 0..self.parts.len() {
-            let (Some(joint), Some(carrier)) = (self.parts[at].joint, self.parts[at].carrier) else { break };
-            if let Some((coordinate, ratio)) = self.subsystem_of(at) {
-                chain.push(Joint { coordinate, ratio, motion: self.motion(joint) });
-            }
-            at = carrier;
-        }
-        chain.reverse();
+        let chain = self.chain(i);
         Body { name: part.name.clone(), chain, outline }
     }
 
-    fn motion(&self, joint: usize) -> Motion {
+    pub(crate) fn motion(&self, joint: usize) -> Motion {
         let pair = &self.pairs[joint];
         let plane = &self.plane.plane_from_machine;
         if pair.kind.slides() {
@@ -186,12 +218,12 @@ impl Mechanism {
         }
         self.with_reach(|parts| {
             for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.outline.is_none()) {
-                let touched = |j: &usize| *j != i && parts.may_touch(i, *j, self.plane.normal);
+                let touched = |j: &usize| *j != i && parts.may_touch(i, *j);
                 if let Some(j) = (0..self.parts.len()).find(touched) {
                     let place = part.tilted.map_or(part.place, |p| self.machine.place_of_primitive(p));
                     let why = part.note.as_deref().unwrap_or("it has no planar outline");
                     let message =
-                        format!("{} may touch {}, but {why}, expected prisms", part.name, self.parts[j].name);
+                        format!("{} may touch {}, but {why}; expected prisms", part.name, self.parts[j].name);
                     return Err(self.machine.error(place, message));
                 }
             }

@@ -6,6 +6,7 @@
 
 use super::fit::Fit;
 use super::fits::{ShaftFit, ShaftMiss, Solid, end_patches, face_pairs, face_patches, shafts};
+use super::lower::PAIR_WORK;
 use super::pair::{Pair, PairKind};
 use super::patch::Scene;
 use super::plane_fit::PlanePatch;
@@ -51,9 +52,11 @@ pub(crate) enum Loose {
     OffCentre { primitives: [u32; 2], plays: (f64, f64) },
 }
 
+/// `solids` are the parts as far as they are near each other, `whole` all of them.
 pub(crate) fn find(
     scene: &Scene<'_>,
     solids: [&Solid<'_>; 2],
+    whole: [&Solid<'_>; 2],
     parts: (usize, usize),
     clearance: f64,
 ) -> Finding {
@@ -67,13 +70,15 @@ pub(crate) fn find(
             let d = first.laterals[0].direction;
             let (mut patches, cut) = face_patches(scene, solids, clearance, |n| perpendicular(n, d));
             patches.extend(end_patches(scene, solids, d));
-            finding.too_many_faces = cut;
+            finding.too_many_faces = cut || scene.work.ran_out();
+            // What was found is judged, however much it cost.
+            scene.work.open(PAIR_WORK / 2);
             with_shaft(scene, &fits, patches)
         }
         None => faces_only(scene, solids, clearance),
     };
     match found {
-        Ok(Some(fit)) => finding.pair = Some(fit.into_pair(scene, solids, parts)),
+        Ok(Some(fit)) => finding.pair = Some(fit.into_pair(scene, whole, parts)),
         Ok(None) => {}
         Err(loose) => finding.loose = Some(loose),
     }

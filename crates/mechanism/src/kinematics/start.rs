@@ -1,9 +1,12 @@
 //! Parts must not overlap at the start; they may touch, and meshing gear envelopes may overlap.
 
 use super::bounds::Bounds;
-use super::region::{Carrier, Region, within};
+use super::region::{Carrier, Region, with_leaves, within};
 use super::work::Work;
-use mainspring_geometry::{Csg, CsgOp, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap};
+use mainspring_geometry::{
+    Csg, CsgOp, OutlineBudget, OutlineError, Part, Primitive, Rigid3, Vec2, Vec3, overlap_within,
+};
+use std::cell::Cell;
 
 /// A point inside two parts at once, in machine coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +20,25 @@ pub(crate) struct Start<'a> {
     pub boxes: &'a [Bounds],
     pub plane_from_machine: Rigid3,
     pub tolerance: f64,
+    /// Of the scans, and of the planar booleans.
     pub work: Work,
+    pub budget: Cell<OutlineBudget>,
+}
+
+/// One part as it stands.
+pub(crate) struct Extent<'a> {
+    pub csg: &'a Csg,
+    /// About all its primitives.
+    pub bounds: Bounds,
+    /// Of the finished part: tolerances are relative to it.
+    pub size: f64,
+}
+
+impl<'a> Extent<'a> {
+    pub(crate) fn of(csg: &'a Csg, primitives: &[Primitive], boxes: &[Bounds], plane: &Rigid3) -> Self {
+        let bounds = csg.leaves().fold(Bounds::EMPTY, |b, i| b.join(&boxes[i as usize]));
+        Extent { csg, bounds, size: Part { primitives, csg }.size(plane) }
+    }
 }
 
 /// A mesh, by the primitives that are its envelopes.
@@ -28,24 +49,26 @@ pub(crate) enum Envelopes {
 }
 
 impl Start<'_> {
-    /// Where parts `a` and `b` overlap, their meshes left out. If the work runs out, nothing is found.
-    pub(crate) fn clash(
-        &self,
-        a: &Csg,
-        b: &Csg,
-        bounds: [&Bounds; 2],
-        meshes: &[Envelopes],
-    ) -> Option<Clash> {
+    /// Where two parts overlap, their meshes left out. If the work runs out, nothing is found.
+    pub(crate) fn clash(&self, parts: [&Extent<'_>; 2], meshes: &[Envelopes]) -> Option<Clash> {
         self.work.open(PAIR_WORK);
+        let bounds = parts.map(|p| &p.bounds);
         if !bounds[0].touches(bounds[1]) {
             return None;
         }
-        let a = without_meshes(a, meshes);
+        let zone = bounds[0].common(bounds[1]).grown(4.0 * self.tolerance);
+        let near = |csg: &Csg| with_leaves(csg, |i| self.boxes[i as usize].touches(&zone));
+        let (a, b) = (near(&without_meshes(parts[0].csg, meshes)), near(parts[1].csg));
         let (primitives, plane) = (self.primitives, &self.plane_from_machine);
-        match overlap(Part { primitives, csg: &a }, Part { primitives, csg: b }, plane) {
+        let size = parts[0].size.max(parts[1].size);
+        let parts = [&a, &b].map(|csg| Part { primitives, csg });
+        let mut budget = self.budget.get();
+        let found = budget.half(|left| overlap_within(parts[0], parts[1], plane, size, left));
+        self.budget.set(budget);
+        match found {
             Ok(found) => found.map(|o| Clash { point: self.lift(o.point, o.height) }),
             Err(OutlineError::Malformed { .. }) => None,
-            Err(_) => self.scan([&a, b], bounds),
+            Err(_) => self.scan([&a, &b], bounds),
         }
     }
 
@@ -56,10 +79,8 @@ impl Start<'_> {
     /// Looks along lines through the common box in its three directions; every piece of a line between walls is
     /// judged at its middle. Overlaps narrower than the spacing of the lines can be missed.
     fn scan(&self, csgs: [&Csg; 2], bounds: [&Bounds; 2]) -> Option<Clash> {
-        let [a, b] = bounds;
-        let low = Vec3::new(a.low.x.max(b.low.x), a.low.y.max(b.low.y), a.low.z.max(b.low.z));
-        let high = Vec3::new(a.high.x.min(b.high.x), a.high.y.min(b.high.y), a.high.z.min(b.high.z));
-        let zone = Bounds { low, high };
+        let zone = bounds[0].common(bounds[1]);
+        let Bounds { low, high } = zone;
         let regions = csgs
             .map(|csg| Region::new(self.primitives, csg, self.boxes, &zone, Carrier::Space, self.tolerance));
         let work: usize = csgs.iter().map(|c| c.ops.len()).sum::<usize>()

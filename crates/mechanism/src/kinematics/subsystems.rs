@@ -61,7 +61,9 @@ pub(crate) fn subsystems(holds: &[Option<Hold>], pairs: &[Pair]) -> Vec<Subsyste
             let a = members[next];
             next += 1;
             let at_a = ratio[a].unwrap_or(1.0);
-            for (b, factor) in gears_of(a, pairs).filter(|(b, _)| moves(*b)) {
+            // A ratio holds against the part that carries both gears.
+            let carrier = |p: usize| holds[p].map(|h| h.carrier);
+            for (b, factor) in gears_of(a, pairs).filter(|(b, _)| moves(*b) && carrier(*b) == carrier(a)) {
                 let at_b = at_a * factor;
                 match ratio[b] {
                     Some(known) => locked |= (known - at_b).abs() > RATIO_TOLERANCE * known.abs(),

@@ -1,100 +1,119 @@
 //! What the supplement tells, in the units of the joints: radians where a part turns.
 
 use super::mechanism::{JointSpring, Mechanism, Warning};
-use super::pair::PairKind;
-use mainspring_geometry::mass_properties;
-use mainspring_model::{Error, PairData, Place, StateValue, Values};
+use super::pair::Pair;
+use super::{joint_forces, masses};
+use crate::forces::ContactLaw;
+use mainspring_geometry::Vec3;
+use mainspring_model::{Error, PairData, PartNumber, Place, Values};
 
 /// Joint positions of one subsystem may contradict each other by this much (radians, or parts of the machine).
 const SAME_POSITION: f64 = 1e-9;
 
-/// Puts inertias, frictions, springs and the initial state into the parts.
+/// Puts inertias, forces, drives, stops and the initial state into the parts.
 pub(crate) fn given(mechanism: &mut Mechanism, values: &Values<f64>) -> Result<(), Error> {
     let machine = mechanism.machine.clone();
     let supplement = machine.supplement();
     for data in &supplement.pairs {
-        pair_data(mechanism, data);
+        pair_data(mechanism, data)?;
     }
-    densities(mechanism, values)?;
+    masses::given(mechanism, values)?;
     let positions = spread(mechanism, &supplement.positions, "position")?;
     let velocities = spread(mechanism, &supplement.velocities, "velocity")?;
     for (part, (x, v)) in mechanism.parts.iter_mut().zip(positions.into_iter().zip(velocities)) {
         (part.position, part.velocity) = (x, v);
     }
+    joint_forces::given(mechanism)?;
+    mechanism.start_drives();
+    mechanism.check_stops()?;
+    if let Some(gravity) = &supplement.gravity {
+        let [x, y, z] = gravity.field;
+        mechanism.gravity = Vec3::new(x, y, z);
+        mechanism.warnings.extend(across(mechanism, gravity.place));
+    }
+    if let Some(c) = &supplement.contact {
+        mechanism.contact = ContactLaw { e: c.e, d: c.d, m: c.m };
+    }
     Ok(())
 }
 
-fn pair_data(mechanism: &mut Mechanism, data: &PairData) {
-    let slides = slides(mechanism, data.part);
+/// Gravity along the normal does nothing where all motion is planar.
+fn across(mechanism: &Mechanism, place: Place) -> Option<Warning> {
+    let along = mechanism.gravity.dot(mechanism.plane.normal);
+    let lost = along.abs() > 1e-12 * mechanism.gravity.norm();
+    let message = format!(
+        "{} of gravity is along the normal of the working plane and moves nothing",
+        super::near_miss::number(along.abs())
+    );
+    lost.then_some(Warning { place: Some(place), parts: vec![], message })
+}
+
+/// The line of a pair belongs to the joint by which its first part hangs on its second.
+fn pair_data(mechanism: &mut Mechanism, data: &PairData) -> Result<(), Error> {
+    mechanism.parts[data.part].place = data.place;
+    let part = &mechanism.parts[data.part];
+    let hangs = |c: usize| mechanism.mover(c) == mechanism.mover(data.other);
+    let here = part.carrier.is_none_or(|c| c == data.other);
+    if let Some(carrier) = part.carrier.filter(|c| !here && !hangs(*c)) {
+        let (name, other) = (&part.name, &mechanism.parts[data.other].name);
+        let is_pair =
+            |p: &Pair| p.is_lower() && [(data.part, data.other), (data.other, data.part)].contains(&p.parts);
+        if mechanism.parts[data.other].carrier == Some(data.part) {
+            let message = format!(
+                "{name} carries {other} and not the other way round; expected `< {other} : {name} >`"
+            );
+            return Err(mechanism.machine.error(data.place, message));
+        }
+        if !mechanism.pairs.iter().any(is_pair) {
+            let carrier = &mechanism.parts[carrier].name;
+            let message =
+                format!("{name} and {other} form no pair; expected `< {name} : {carrier} >`, which do");
+            return Err(mechanism.machine.error(data.place, message));
+        }
+        let message =
+            format!("{name} and {other} close a chain of pairs: the values of this line are left out");
+        mechanism.warnings.push(Warning { place: Some(data.place), parts: vec![data.part], message });
+        return Ok(());
+    }
+    if !here {
+        let message = format!(
+            "{} is carried by another part than this line says: its values act on that joint",
+            part.name
+        );
+        mechanism.warnings.push(Warning { place: Some(data.place), parts: vec![data.part], message });
+    }
+    let unit = mechanism.unit(data.part);
     let part = &mut mechanism.parts[data.part];
     part.inertia = data.inertia;
     part.friction = data.friction;
-    part.place = data.place;
-    part.spring = data.spring.map(|s| JointSpring {
-        relaxed: if slides { s.relaxed } else { s.relaxed.to_radians() },
-        constant: s.constant,
-    });
-    if part.carrier.is_some_and(|c| c != data.other) {
-        let name = part.name.clone();
-        mechanism.warnings.push(Warning {
-            place: Some(data.place),
-            parts: vec![data.part],
-            message: format!(
-                "{name} is carried by another part than this line says: its values act on that joint"
-            ),
-        });
-    }
-}
-
-/// Does the part's joint slide (and not turn)?
-fn slides(mechanism: &Mechanism, part: usize) -> bool {
-    let kind = mechanism.parts[part].joint.map(|j| mechanism.pairs[j].kind);
-    kind == Some(PairKind::Prismatic)
-}
-
-/// Inertias that were not given, from densities: about the joint's axis, or the mass where the part slides.
-fn densities(mechanism: &mut Mechanism, values: &Values<f64>) -> Result<(), Error> {
-    let machine = mechanism.machine.clone();
-    for (i, model) in machine.parts().iter().enumerate() {
-        let Some(density) = machine.density(model, values)? else { continue };
-        let part = &mechanism.parts[i];
-        let (None, Some(joint)) = (part.inertia, part.joint) else { continue };
-        let axis = mechanism.pairs[joint].axis;
-        let properties = mass_properties(&mechanism.primitives, &model.csg)
-            .map_err(|e| machine.error(model.place, format!("no inertia of {}: {e}", model.name)))?;
-        let per_density = if slides(mechanism, i) {
-            properties.volume
-        } else {
-            properties.moment_about(axis.point, axis.direction)
-        };
-        let part = &mut mechanism.parts[i];
-        (part.inertia, part.inertia_from_density) = (Some(density * per_density), true);
-    }
+    part.spring = data.spring.map(|s| JointSpring { relaxed: s.relaxed * unit, constant: s.constant });
     Ok(())
 }
 
 /// Values given for some parts, brought to all parts of their subsystems.
-fn spread(mechanism: &Mechanism, given: &[StateValue], what: &str) -> Result<Vec<f64>, Error> {
+fn spread(mechanism: &Mechanism, given: &[PartNumber], what: &str) -> Result<Vec<f64>, Error> {
     let mut of_part = vec![0.0; mechanism.parts.len()];
     let mut roots: Vec<Option<(f64, Place)>> = vec![None; mechanism.subsystems.len()];
     for state in given {
-        let value = if slides(mechanism, state.part) { state.value } else { state.value.to_radians() };
+        let value = state.value * mechanism.unit(state.part);
         let Some((s, ratio)) = mechanism.subsystem_of(state.part) else {
             let name = &mechanism.parts[state.part].name;
             let message =
-                format!("{name} has no joint to take a {what}, expected a part that turns or slides");
+                format!("{name} has no joint to take a {what}; expected a part that turns or slides");
             return Err(mechanism.machine.error(state.place, message));
         };
         if mechanism.subsystems[s].closed && value != 0.0 {
             let name = &mechanism.parts[state.part].name;
-            let message = format!("{name} is in a closed chain of pairs, expected no {what} for its parts");
+            let message = format!("{name} is in a closed chain of pairs; expected no {what} for its parts");
             return Err(mechanism.machine.error(state.place, message));
         }
         let at_root = value / ratio;
         match roots[s] {
             Some((known, _)) if (known - at_root).abs() > SAME_POSITION * (1.0 + known.abs()) => {
                 let name = &mechanism.parts[state.part].name;
-                let message = format!("the {what} of {name} contradicts that of a gear in mesh with it");
+                let message = format!(
+                    "the {what} of {name} contradicts that of a gear in mesh with it; expected values that agree"
+                );
                 return Err(mechanism.machine.error(state.place, message));
             }
             _ => roots[s] = Some((at_root, state.place)),

@@ -6,8 +6,10 @@
   const stage = document.querySelector(".stage"), svg = stage.querySelector("svg"), plots = $("plots");
   const T = film.t, last = T.length - 1, end = T[last];
   const column = new Map(film.parts.map((name, i) => [name, i]));
-  const groups = all("g[data-part]", svg).filter((g) => column.has(g.dataset.part))
-    .map((g) => ({ g, i: column.get(g.dataset.part), m: film.motions[g.dataset.part] }));
+  const groups = all("g[data-part],g[data-on]", svg)
+    .map((g) => ({ g, chain: (film.chains[g.dataset.part || g.dataset.on] || []).filter((name) => column.has(name)) }))
+    .filter(({ chain }) => chain.length)
+    .map(({ g, chain }) => ({ g, joints: chain.map((name) => ({ i: column.get(name), m: film.motions[name] })) }));
   const springs = film.springs.map((s) => ({ ...s, i: column.get(s.part), path: svg.querySelector(`[data-spring="${s.index}"]`) }));
   const marks = all(".touch", svg), arrows = svg.querySelector(".arrows");
   const panels = all(".panel[data-curve]", plots).map((p) => ({ p, out: p.querySelector(".value"), name: p.dataset.curve }));
@@ -87,7 +89,9 @@
   }
   function show() {
     const [a, f] = place(t);
-    for (const { g, i, m } of groups) g.setAttribute("transform", pose(m, value(film.q[i], a, f)));
+    for (const { g, joints } of groups) {
+      g.setAttribute("transform", joints.map(({ i, m }) => pose(m, value(film.q[i], a, f))).join(" "));
+    }
     for (const s of springs) {
       const q = value(film.q[s.i], a, f);
       s.path.setAttribute("d", s.kind === "spiral" ? spiral(s, q * s.scale) : coil(s, q));
