@@ -8,7 +8,7 @@ import pytest
 from mainspring.report import page
 from mainspring.report.plots import line
 from mainspring.report.sampling import film
-from mainspring.report.ticks import Axis
+from mainspring.drawing.ticks import Axis
 
 
 def test_a_run_that_never_moves_has_a_page(mechanism, simulation):

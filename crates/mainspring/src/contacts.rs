@@ -55,7 +55,8 @@ pub fn features(system: &System, id: ContactId) -> (&Feature, &Feature) {
     (&system.features[a][id.first as usize], &system.features[b][id.second as usize])
 }
 
-fn feature(system: &System, body: usize, feature: &Feature) -> Value {
+/// A feature as the drawing names it.
+pub fn feature(system: &System, body: usize, feature: &Feature) -> Value {
     let (layer, boundary, edge) = feature.at;
     json!({
         "part": system.bodies[body].name,

@@ -1,4 +1,4 @@
-//! The facade: load, compile, inspect, simulate, predict, as JSON with stable keys (docs/guide/json.md).
+//! The facade: load, compile, inspect, map, simulate, predict, as JSON with stable keys (docs/guide/json.md).
 
 mod contacts;
 mod drawing;
@@ -8,13 +8,20 @@ mod options;
 mod prediction;
 mod sentences;
 mod simulation;
+mod space;
+mod space_json;
+mod space_picture;
+mod space_request;
 mod words;
 
 pub use drawing::drawing_json;
 pub use inspect::{inspect_json, parameters_json};
 pub use mainspring_behavior::{MatchOptions, Outcome, PredictOptions};
+pub use mainspring_cspace::{End, Gap, Interval, Stage, Transmission};
 pub use mainspring_dynamics::Status;
 pub use mainspring_mechanism::{CompileOptions, Mechanism};
 pub use mainspring_model::{Error, Machine};
 pub use prediction::{PredictionResult, predict};
 pub use simulation::{SimulationOptions, SimulationResult, simulate};
+pub use space::{Space, SpaceAxis, SpaceMark, SpaceWay, configuration_space};
+pub use space_request::SpaceRequest;

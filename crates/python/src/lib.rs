@@ -3,11 +3,13 @@
 mod errors;
 mod machine;
 mod results;
+mod space;
 
 use errors::InputError;
 use machine::{PyMachine, PyMechanism};
 use pyo3::prelude::*;
 use results::{PyPrediction, PyRun};
+use space::PySpace;
 
 /// The compiled core: numbers in the file's units and radians, text as JSON.
 #[pymodule]
@@ -17,5 +19,6 @@ fn _core(py: Python<'_>, module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyMachine>()?;
     module.add_class::<PyMechanism>()?;
     module.add_class::<PyRun>()?;
+    module.add_class::<PySpace>()?;
     module.add_class::<PyPrediction>()
 }

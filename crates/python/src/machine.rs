@@ -2,9 +2,10 @@
 
 use crate::errors::{InputError, bad_input, by_index, count};
 use crate::results::{PyPrediction, PyRun, watch};
+use crate::space::{self, PySpace};
 use mainspring::{
-    CompileOptions, Machine, MatchOptions, Mechanism, PredictOptions, SimulationOptions, drawing_json,
-    inspect_json, parameters_json, predict, simulate,
+    CompileOptions, Machine, MatchOptions, Mechanism, PredictOptions, SimulationOptions, SpaceRequest,
+    drawing_json, inspect_json, parameters_json, predict, simulate,
 };
 use pyo3::prelude::*;
 use std::path::Path;
@@ -79,6 +80,20 @@ impl PyMechanism {
     /// The outlines that contact is computed with.
     fn drawing_json(&self) -> String {
         drawing_json(&self.0).to_string()
+    }
+
+    /// The configuration space of parts `a` and `b`.
+    fn configuration_space(
+        &self,
+        py: Python<'_>,
+        a: String,
+        b: String,
+        coordinates: Option<(String, String)>,
+        windows: Vec<(String, f64, f64)>,
+        held: Values,
+    ) -> PyResult<PySpace> {
+        let coordinates = coordinates.map(|(p, q)| [p, q]);
+        space::make(py, &self.0, SpaceRequest { parts: [a, b], coordinates, windows, held })
     }
 
     /// Run to time `until`.

@@ -8,7 +8,7 @@ from mainspring.machine import Mechanism
 from mainspring.prediction import Prediction
 from mainspring.report.plots import Curve, curves, energy_curve, line, time_axis
 from mainspring.report.sampling import film
-from mainspring.report.ticks import Axis
+from mainspring.drawing.ticks import Axis
 from mainspring.simulation import Simulation
 
 _WIDTH, _ROW, _GAP = 900, 92, 22

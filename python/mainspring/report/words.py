@@ -4,7 +4,7 @@ import html
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from mainspring.report.ticks import minus
+from mainspring.drawing.ticks import minus
 
 
 def escape(text: object) -> str:

@@ -44,7 +44,10 @@ impl Mechanism {
     }
 
     /// The same machine for questions of reach alone, which inertias, friction and springs do not answer.
-    pub(crate) fn system_of_shapes(&self) -> Result<System, Error> {
+    ///
+    /// # Errors
+    /// As [`Mechanism::coordinates`], inertias and rates apart, and [`Mechanism::bodies`].
+    pub fn system_of_shapes(&self) -> Result<System, Error> {
         self.check_motion()?;
         let coordinates = self.subsystems.iter().map(|s| self.coordinate(s)).collect();
         Ok(System::new(coordinates, self.bodies()?, &self.exclusions(), self.size))
