@@ -71,7 +71,8 @@ fn row(name: &str, n: usize, system: &System, options: &SpaceOptions) {
 /// Million configurations a second, one at a time, over the whole torus.
 fn located(map: &ConfigurationSpace) -> f64 {
     let mut random = Random(5);
-    let points: Vec<[f64; 2]> = (0..2_000_000).map(|_| [random.next(-PI, PI), random.next(-PI, PI)]).collect();
+    let points: Vec<[f64; 2]> =
+        (0..2_000_000).map(|_| [random.next(-PI, PI), random.next(-PI, PI)]).collect();
     let start = Instant::now();
     let free = map.are_free(&points).into_iter().filter(|f| *f).count();
     let rate = points.len() as f64 / start.elapsed().as_secs_f64() / 1e6;
@@ -100,7 +101,10 @@ fn ordinary() {
         })
         .collect();
     times.sort_by(f64::total_cmp);
-    println!("200 ordinary pairs: median {:.2} ms, 95 % under {:.2} ms, most {:.2} ms", times[100], times[190], times[199]);
+    println!(
+        "200 ordinary pairs: median {:.2} ms, 95 % under {:.2} ms, most {:.2} ms",
+        times[100], times[190], times[199]
+    );
 }
 
 fn main() {

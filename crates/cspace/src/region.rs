@@ -37,7 +37,9 @@ impl Section {
                 let span = Span::new(&edge.segment, local);
                 let feature = feature_of(i, j);
                 if feature != usize::MAX {
-                    point.get_or_insert_with(|| [span.ends()[0], span.samples(3, true)[0].0, span.samples(3, true)[2].0]);
+                    point.get_or_insert_with(|| {
+                        [span.ends()[0], span.samples(3, true)[0].0, span.samples(3, true)[2].0]
+                    });
                 }
                 convex.push(!matches!(
                     edge.segment,

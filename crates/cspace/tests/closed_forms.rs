@@ -147,7 +147,8 @@ fn boxes_in_the_plane() {
     assert_eq!(free.len(), 1);
     close(free[0].area, 64.0 - 1.25 * 2.5, 1e-9);
     assert_eq!(free[0].boundary.len(), 2);
-    let hole = free[0].boundary.iter().min_by_key(|c| c.edges.iter().filter(|e| e.curve.is_none()).count()).unwrap();
+    let hole =
+        free[0].boundary.iter().min_by_key(|c| c.edges.iter().filter(|e| e.curve.is_none()).count()).unwrap();
     // Flush sides: which corner touches which edge changes along them, so each side is several curves.
     assert!(hole.edges.len() >= 4 && hole.edges.iter().all(|e| e.curve.is_some()));
     for e in &hole.edges {
@@ -157,7 +158,8 @@ fn boxes_in_the_plane() {
         };
         assert!(on(e.from) && on(e.to), "{e:?}");
     }
-    let length: f64 = hole.edges.iter().map(|e| (e.to[0] - e.from[0]).abs() + (e.to[1] - e.from[1]).abs()).sum();
+    let length: f64 =
+        hole.edges.iter().map(|e| (e.to[0] - e.from[0]).abs() + (e.to[1] - e.from[1]).abs()).sum();
     close(length, 2.0 * (1.25 + 2.5), 1e-8);
 }
 

@@ -32,9 +32,17 @@ impl Pair {
             (scale * (c * x - s * y) + shift.0, scale * (s * x + c * y) + shift.1)
         };
         let corners = |list: &[Corner]| -> Vec<Corner> {
-            list.iter().map(|&(x, y, b)| { let (x, y) = map(x, y); (x, y, b) }).collect()
+            list.iter()
+                .map(|&(x, y, b)| {
+                    let (x, y) = map(x, y);
+                    (x, y, b)
+                })
+                .collect()
         };
-        let at = |x: f64, y: f64| { let (x, y) = map(x, y); p(x, y) };
+        let at = |x: f64, y: f64| {
+            let (x, y) = map(x, y);
+            p(x, y)
+        };
         let second = if self.slides {
             let (s, c) = (angle + 0.9).sin_cos();
             slide(1, c, s)
@@ -157,7 +165,12 @@ fn every_crossing_of_a_slice_has_a_curve_and_every_curve_a_crossing() {
             let x = random.next(-PI, PI);
             let slice = map.slice_first(x);
             let wrap = |v: f64| if y.wraps && v > y.end() { v - TAU } else { v };
-            let ends: Vec<f64> = slice.iter().filter(|i| i.curves != [None, None]).flat_map(|i| [i.low, i.high]).map(wrap).collect();
+            let ends: Vec<f64> = slice
+                .iter()
+                .filter(|i| i.curves != [None, None])
+                .flat_map(|i| [i.low, i.high])
+                .map(wrap)
+                .collect();
             // The overlap test changes across every end that lies on a curve, unless another one is within 1e-6.
             for (i, &e) in ends.iter().enumerate() {
                 let border = !y.wraps && ((e - y.start).abs() < 1e-9 || (e - y.end()).abs() < 1e-9);

@@ -8,7 +8,8 @@ use mainspring_mechanism::{Body, Joint, Motion, System};
 use std::f64::consts::{PI, TAU};
 
 fn space(system: &System) -> ConfigurationSpace {
-    ConfigurationSpace::new(system, [0, 1], [0, 1], &SpaceOptions::default()).unwrap_or_else(|e| panic!("{e}"))
+    ConfigurationSpace::new(system, [0, 1], [0, 1], &SpaceOptions::default())
+        .unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Components as (generators of windings, number of boundary cycles), sorted.
@@ -234,7 +235,11 @@ fn refusals_say_why() {
     let geared = Joint { coordinate: 0, ratio: -2.0, motion: Motion::Turn { center: common::p(2.0, 0.0) } };
     let twice = vec![
         body("a", vec![turn(0, 0.0, 0.0)], vec![rectangle(0.0, 0.0, 1.0, 1.0)]),
-        Body { name: "b".into(), chain: vec![geared, turn(1, 3.0, 0.0)], outline: outline(vec![rectangle(2.0, 0.0, 3.0, 1.0)]) },
+        Body {
+            name: "b".into(),
+            chain: vec![geared, turn(1, 3.0, 0.0)],
+            outline: outline(vec![rectangle(2.0, 0.0, 3.0, 1.0)]),
+        },
     ];
     assert!(matches!(fails(&system(twice, 3.0), [0, 1], [0, 1], &none), SpaceError::MovesTwice { .. }));
     let three = vec![
@@ -271,7 +276,8 @@ fn a_part_carried_by_the_other() {
     );
     for (coordinates, held) in [([0, 2], 1), ([1, 2], 0), ([0, 1], 2), ([2, 0], 1)] {
         let options = SpaceOptions { held: vec![(held, 0.7)], ..SpaceOptions::default() };
-        let map = ConfigurationSpace::new(&s, [0, 1], coordinates, &options).unwrap_or_else(|e| panic!("{e}"));
+        let map =
+            ConfigurationSpace::new(&s, [0, 1], coordinates, &options).unwrap_or_else(|e| panic!("{e}"));
         let mut random = common::Random(7);
         let (mut free, mut wrong) = (0, 0);
         for _ in 0..4000 {

@@ -1,7 +1,10 @@
 //! Pairs built by hand, and a generator of random parts.
 #![allow(dead_code)]
 
+pub mod check;
 pub mod oracle;
+pub mod pairs;
+pub mod polygon;
 
 use mainspring_geometry::{CurveId, Edge, Layer, Loop, Outline, Segment, Turn, Vec2};
 use mainspring_mechanism::{Body, Coordinate, Joint, Motion, System};

@@ -165,3 +165,11 @@ pub fn is_simple(boundary: &Loop) -> bool {
     }
     true
 }
+
+/// Do no two loops cross or touch?
+pub fn are_apart(loops: &[Loop]) -> bool {
+    let all: Vec<Vec<Placed>> =
+        loops.iter().map(|l| l.edges.iter().map(|e| place(&e.segment, &|p| p)).collect()).collect();
+    let meet = |a: &[Placed], b: &[Placed]| a.iter().any(|s| b.iter().any(|t| s.meets(t)));
+    (0..all.len()).all(|i| (0..i).all(|j| !meet(&all[i], &all[j])))
+}
