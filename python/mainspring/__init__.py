@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from mainspring.simulation import Simulation as Simulation
     from mainspring.simulation import Trajectory as Trajectory
     from mainspring.simulation import simulate as simulate
+    from mainspring.space import ConfigurationSpace as ConfigurationSpace
+    from mainspring.space import configuration_space as configuration_space
 
 __version__ = "0.1.0"
 
@@ -52,9 +54,12 @@ _HOME = {
     "Simulation": "simulation",
     "Trajectory": "simulation",
     "simulate": "simulation",
+    "ConfigurationSpace": "space",
+    "configuration_space": "space",
 }
 
 __all__ = [
+    "ConfigurationSpace",
     "Energy",
     "Event",
     "Hypothesis",
@@ -70,6 +75,7 @@ __all__ = [
     "Subsystem",
     "Trajectory",
     "__version__",
+    "configuration_space",
     "find_pairs",
     "load",
     "predict",

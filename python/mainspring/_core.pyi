@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["InputError", "Machine", "Mechanism", "Prediction", "Run", "load"]
+__all__ = ["InputError", "Machine", "Mechanism", "Prediction", "Run", "Space", "load"]
 
 class InputError(ValueError):
     """Bad input. `str(e)` is the whole line `FILE:LINE:COL: error: what, what was expected`."""
@@ -49,6 +49,20 @@ class Mechanism:
         `{"kind": "line", "from", "to"}`, `{"kind": "arc", "from", "to", "center", "radius", "convex"}`,
         `{"kind": "circle", "center", "radius", "convex"}`; material lies to the left; `relaxed` in
         radians or length.
+        """
+
+    def configuration_space(
+        self,
+        a: str,
+        b: str,
+        coordinates: tuple[str, str] | None,
+        windows: list[tuple[str, float, float]],
+        held: list[tuple[str, float]],
+    ) -> Space:
+        """Return the configuration space of parts `a` and `b`; Ctrl-C is heard while it is made.
+
+        `coordinates` names the parts whose joints are the two coordinates; `windows` their ranges `(part,
+        low, high)`; `held` the positions of other joints.
         """
 
     def simulate(
@@ -125,3 +139,58 @@ class Prediction:
         """Return the object that `predict --json` prints."""
 
     def run(self) -> Run: ...
+
+@final
+class Space:
+    """The configuration space of two parts; values are the two joints' positions, radians or length."""
+
+    def json(self) -> str:
+        """Return the object that `cspace --json` prints."""
+
+    def picture_json(self) -> str:
+        """Return free space within the stored domain as polygons, and what moves with which coordinate.
+
+        `{"free": [[[x, y]]], "moves": [{"part", "axis": 0 | 1, "ratio"}], "others": {part: position}}`;
+        polygons may reach over the domain's end, and both copies are there then; a part's position is `ratio`
+        times that of the axis.
+        """
+
+    def features_json(self, k: int) -> str:
+        """Return the features of the first (0) or the second (1) part, a list as in `curves`."""
+
+    def is_free(self, at: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return for each of `(n, 2)` configurations whether it is free, `(n,)`."""
+
+    def gap(self, at: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Return gaps `(n,)` and indices of the features at the nearest contact, `(n, 2)`; NaN, -1: none."""
+
+    def components_of(self, at: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Return the component of each of `(n, 2)` configurations, `(n,)`; -1 where it is blocked."""
+
+    def slice(self, axis: int, x: float) -> list[tuple[float, float, int | None, int | None, int]]:
+        """Return free intervals of the other coordinate: low, high, the curves that bound it, component."""
+
+    def play(self, at: tuple[float, float]) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """Return how far each coordinate can move with the other held; None if blocked."""
+
+    def way(
+        self, start: tuple[float, float], end: tuple[float, float]
+    ) -> tuple[NDArray[np.float64], tuple[int, int], bool] | None:
+        """Return points `(n, 2)`, winding, and whether just that turn is reached; None without a way."""
+
+    def walk(
+        self, start: tuple[float, float], axis: int, goal: float
+    ) -> tuple[list[tuple[int | None, tuple[float, float], tuple[float, float]]], str] | None:
+        """Return stages `(curve, from, to)` and `arrived`, `jammed` or `limit`; None from a blocked start."""
+
+    def transmission(
+        self, curve: int, fractions: NDArray[np.float64]
+    ) -> tuple[
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+    ]:
+        """Return at `(n, 2)`, ratio `(n,)`, derivatives, pressure angles, point and normal `(n, 2)`."""

@@ -53,6 +53,8 @@ pub struct Space {
     pub(crate) marks: Vec<SpaceMark>,
     /// Parts that move with one of the two: index of the axis, and position over that of the axis.
     pub(crate) moves: Vec<(String, usize, f64)>,
+    /// Where all other moving parts are.
+    pub(crate) others: Vec<(String, f64)>,
 }
 
 /// The space of the two parts a request names.
@@ -75,7 +77,8 @@ pub fn configuration_space(mechanism: &Mechanism, request: &SpaceRequest) -> Res
     let held = held_of(mechanism, &system, parts, &values);
     let marks = marks(mechanism, &axes);
     let moves = moves(mechanism, &axes);
-    Ok(Space { system, map, parts, axes, held, marks, moves })
+    let others = places(mechanism, &values);
+    Ok(Space { system, map, parts, axes, held, marks, moves, others })
 }
 
 /// The held joints that matter, by the part whose joint each is.
@@ -110,6 +113,15 @@ fn moves(mechanism: &Mechanism, axes: &[SpaceAxis; 2]) -> Vec<(String, usize, f6
         let (c, ratio) = mechanism.subsystem_of(part)?;
         let k = axes.iter().position(|a| a.coordinate == c)?;
         Some((mechanism.parts[part].name.clone(), k, ratio / axes[k].ratio))
+    };
+    (0..mechanism.parts.len()).filter_map(of).collect()
+}
+
+fn places(mechanism: &Mechanism, values: &[(usize, f64)]) -> Vec<(String, f64)> {
+    let of = |part: usize| {
+        let (c, ratio) = mechanism.subsystem_of(part)?;
+        let (_, q) = values.iter().find(|v| v.0 == c)?;
+        Some((mechanism.parts[part].name.clone(), q * ratio))
     };
     (0..mechanism.parts.len()).filter_map(of).collect()
 }

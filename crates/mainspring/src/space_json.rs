@@ -28,7 +28,7 @@ impl Space {
             "coordinates": self.axes.each_ref().map(|a| &a.name),
             "held": held,
             "domain": ([0, 1].map(|k| self.axis_json(k))),
-            "start": {"at": pair(start), "component": self.component_of(start)},
+            "start": {"at": pair(start), "component": self.component_of(start), "gap": self.gap(start).map(|g| clean(g.gap))},
             "components": components.iter().map(|c| self.component_json(c)).collect::<Vec<_>>(),
             "curves": curves.iter().map(|c| self.curve_json(c)).collect::<Vec<_>>(),
             "marks": self.marks.iter().map(|m| json!({

@@ -6,7 +6,7 @@
 use crate::space::Space;
 use crate::words::clean;
 use mainspring_cspace::{Curve, Interval};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// Halvings of a stretch of curve: a fold, where the curve runs like a root, is drawn to a thousandth.
 const HALVINGS: u32 = 14;
@@ -30,7 +30,7 @@ pub(crate) fn polyline(curve: &Curve, lengths: [f64; 2], chord: f64) -> Vec<[f64
     if let Some(last) = points.last_mut() {
         *last = curve.to();
     }
-    thinned(points, lengths, 0.2 * chord)
+    straightened(points, lengths, 0.2 * chord)
 }
 
 /// Adds the points between two ends.
@@ -54,20 +54,11 @@ fn halve(
     halve(curve, lengths, chord, (middle, b), [m, q], left - 1, points);
 }
 
-/// Leaves out points that lie on the chord of their neighbours.
-fn thinned(points: Vec<[f64; 2]>, lengths: [f64; 2], slack: f64) -> Vec<[f64; 2]> {
-    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
-    for (i, p) in points.iter().enumerate() {
-        if let (Some(last), Some(next)) = (kept.last(), points.get(i + 1)) {
-            let span = next[0] - last[0];
-            let on = last[1] + (next[1] - last[1]) * (p[0] - last[0]) / span;
-            if span.abs() > 0.0 && (on - p[1]).abs() <= slack * lengths[1] {
-                continue;
-            }
-        }
-        kept.push(*p);
-    }
-    kept
+/// Both ends alone where nothing between them is off their chord.
+fn straightened(points: Vec<[f64; 2]>, lengths: [f64; 2], slack: f64) -> Vec<[f64; 2]> {
+    let (Some(&a), Some(&b)) = (points.first(), points.last()) else { return points };
+    let on = |p: &[f64; 2]| a[1] + (b[1] - a[1]) * (p[0] - a[0]) / (b[0] - a[0]);
+    if points.iter().all(|p| (on(p) - p[1]).abs() <= slack * lengths[1]) { vec![a, b] } else { points }
 }
 
 /// Free space over a range of the first coordinate, between the same two curves.
@@ -80,7 +71,7 @@ struct Strip {
 }
 
 impl Space {
-    /// Free space within the stored domain as polygons (`free`), and what moves with which coordinate.
+    /// Free space within the stored domain as polygons (`free`), what moves with which coordinate, and where the others are.
     ///
     /// Polygons may reach over the domain's end by up to one period; both copies are there then.
     pub fn picture_json(&self) -> Value {
@@ -89,7 +80,9 @@ impl Space {
             .iter()
             .map(|(part, axis, ratio)| json!({"part": part, "axis": axis, "ratio": ratio}))
             .collect();
-        json!({"free": self.polygons(), "moves": moves})
+        let others: Map<String, Value> =
+            self.others.iter().map(|(part, x)| (part.clone(), json!(clean(*x)))).collect();
+        json!({"free": self.polygons(), "moves": moves, "others": others})
     }
 
     fn polygons(&self) -> Vec<Vec<[f64; 2]>> {

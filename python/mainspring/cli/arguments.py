@@ -65,6 +65,54 @@ def _inspect(commands: "Commands[Parser]") -> None:
     _json(command)
 
 
+def _cspace(commands: "Commands[Parser]") -> None:
+    example = "mainspring cspace escapement.padl ewheel lever --at ewheel=4deg,lever=2deg --html space.html"
+    command = _command(
+        commands, "cspace", "map where two parts are free and where they block each other", example
+    )
+    _machine(command)
+    command.add_argument("a", metavar="A", help="a part")
+    command.add_argument("b", metavar="B", help="another part, or the frame")
+    add = command.add_argument_group("the map").add_argument
+    add(
+        "--coordinates",
+        metavar="P,Q",
+        help="parts whose joints are the coordinates (default: A's and B's own)",
+    )
+    add(
+        "--window",
+        metavar="PART=LOW:HIGH",
+        action="append",
+        default=[],
+        help="range of a coordinate (default: a turn, or all that can touch)",
+    )
+    add(
+        "--hold",
+        metavar="PART=10deg",
+        action="append",
+        default=[],
+        help="position of another joint that moves A or B (default: as at the start)",
+    )
+    add = command.add_argument_group("questions and pictures").add_argument
+    add(
+        "--at",
+        metavar="A=10deg,B=5deg",
+        action="append",
+        default=[],
+        help="free there? what is nearest? repeatable",
+    )
+    add(
+        "--slice",
+        metavar="A=10deg",
+        action="append",
+        default=[],
+        help="free intervals of B there; repeatable",
+    )
+    add("--svg", metavar="FILE", help="draw the map")
+    add("--html", metavar="FILE", help="write a page with the map beside the machine")
+    _json(command)
+
+
 def _simulate(commands: "Commands[Parser]") -> None:
     example = "mainspring simulate escapement.padl --until 37 --position bwheel=-20deg --out run"
     command = _command(commands, "simulate", "run the machine for a stretch of time", example)
@@ -150,6 +198,6 @@ def parser() -> Parser:
     )
     top.add_argument("--version", action="version", version=f"mainspring {__version__}")
     commands = top.add_subparsers(metavar="COMMAND", title="commands", required=True, parser_class=Parser)
-    for add in (_demo, _inspect, _simulate, _predict, _examples, _cite):
+    for add in (_demo, _inspect, _cspace, _simulate, _predict, _examples, _cite):
         add(commands)
     return top

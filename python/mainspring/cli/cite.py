@@ -21,6 +21,12 @@ SOURCES: dict[str, tuple[tuple[str, str], ...]] = {
         ),
         ("Reuleaux, F. (1876). The Kinematics of Machinery. Macmillan, London.", "kinematic pairs"),
     ),
+    "cspace": (
+        (
+            "Kyung, M.-H., Sacks, E. Parameter synthesis of higher kinematic pairs. Purdue University.",
+            "configuration spaces of higher pairs, contact curves",
+        ),
+    ),
     "simulate": (
         (GELSEY, "rigid contact (Appendix A, equations corrected)"),
         (
@@ -40,13 +46,19 @@ SOURCES: dict[str, tuple[tuple[str, str], ...]] = {
     ),
     "predict": ((GELSEY, "patterns of motion (Algorithm 12, corrected)"),),
 }
-_BUILDS_ON = {"inspect": ("inspect",), "simulate": ("inspect", "simulate"), "predict": tuple(SOURCES)}
+_BUILDS_ON = {
+    "inspect": ("inspect",),
+    "cspace": ("inspect", "cspace"),
+    "simulate": ("inspect", "simulate"),
+    "predict": ("inspect", "simulate", "predict"),
+}
 
 
 def run(options: Namespace) -> None:
     """Print the sources of one result, or of all."""
-    kind = kind_of(_read(Path(options.result))) if options.result else "predict"
-    found = [{"source": s, "used_for": why} for step in _BUILDS_ON[kind] for s, why in SOURCES[step]]
+    kind = kind_of(_read(Path(options.result))) if options.result else "all"
+    steps = _BUILDS_ON.get(kind, tuple(SOURCES))
+    found = [{"source": s, "used_for": why} for step in steps for s, why in SOURCES[step]]
     if options.json:
         output.print_json(json.dumps({"kind": kind, "sources": found}, ensure_ascii=False))
         return
@@ -70,8 +82,9 @@ def kind_of(result: Any) -> str:  # noqa: ANN401
         ("predict", "hypotheses"),
         ("predict", "prediction"),
         ("simulate", "events"),
+        ("cspace", "curves"),
         ("inspect", "pairs"),
     ):
         if key in keys:
             return kind
-    raise Usage("no result of this program; expected one of inspect, simulate, predict or demo")
+    raise Usage("no result of this program; expected one of inspect, cspace, simulate, predict or demo")

@@ -49,19 +49,27 @@ def _spread(low: float, high: float) -> tuple[float, float]:
 def lengths(low: float, high: float, most: int = 4) -> Axis:
     """Return an axis of plain numbers."""
     low, high = _spread(low, high)
+    return Axis(low, high, length_marks(low, high, most))
+
+
+def angle_marks(low: float, high: float, most: int = 9) -> tuple[tuple[float, str], ...]:
+    """Return round angles within a range of radians, with their text in degrees."""
+    span = math.degrees(high - low)
+    step = next((a for a in _ANGLES if span / a <= most), None) or round_step(span, most)
+    degrees = _multiples(math.degrees(low), math.degrees(high), step)
+    return tuple((math.radians(v), minus(f"{v + 0.0:.6g}°")) for v in degrees)
+
+
+def length_marks(low: float, high: float, most: int = 6) -> tuple[tuple[float, str], ...]:
+    """Return round numbers within a range, with their text."""
     step = round_step(high - low, most)
-    marks = tuple((v, minus(f"{v + 0.0:.6g}")) for v in _multiples(low, high, step))
-    return Axis(low, high, marks)
+    return tuple((v, minus(f"{v + 0.0:.6g}")) for v in _multiples(low, high, step))
 
 
 def angles(low: float, high: float, most: int = 5) -> Axis:
     """Return an axis of radians marked in degrees; small motions get room so that noise stays small."""
     low, high = _spread(low, high)
-    span = math.degrees(high - low)
-    fitting = (a for a in _ANGLES if span / a <= most)
-    step = next(fitting, None) or round_step(span, most)
-    degrees = _multiples(math.degrees(low), math.degrees(high), step)
-    return Axis(low, high, tuple((math.radians(v), minus(f"{v + 0.0:.6g}°")) for v in degrees))
+    return Axis(low, high, angle_marks(low, high, most))
 
 
 def times(low: float, high: float, most: int = 10) -> Axis:

@@ -4,11 +4,11 @@ import html
 
 from mainspring.drawing.palette import variables
 from mainspring.drawing.svg import colours
+from mainspring.drawing.ticks import Axis
 from mainspring.machine import Mechanism
 from mainspring.prediction import Prediction
 from mainspring.report.plots import Curve, curves, energy_curve, line, time_axis
 from mainspring.report.sampling import film
-from mainspring.drawing.ticks import Axis
 from mainspring.simulation import Simulation
 
 _WIDTH, _ROW, _GAP = 900, 92, 22

@@ -18,7 +18,8 @@ from mainspring.simulation import Simulation
 _MOST_POSES = 40
 
 
-def _asset(file: str) -> str:
+def asset(file: str) -> str:
+    """Return a file that pages carry inside."""
     return (files("mainspring.report") / "assets" / file).read_text(encoding="utf-8")
 
 
@@ -103,12 +104,12 @@ def page(mechanism: Mechanism, result: Simulation | Prediction) -> str:
 
 
 def _document(title: str, body: str, data: str) -> str:
-    style = variables() + STYLE + _asset("page.css")
+    style = variables() + STYLE + asset("page.css")
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
         f"<title>{escape(title)} – what it will do</title><style>{style}</style></head>\n"
         f"<body><main>{body}</main>\n"
         f'<script type="application/json" id="film">{data}</script>\n'
-        f"<script>{_asset('player.js')}</script></body></html>\n"
+        f"<script>{asset('player.js')}</script></body></html>\n"
     )

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mainspring.report.sampling import Film, Floats
 from mainspring.drawing.ticks import Axis, angles, decades, lengths, times
+from mainspring.report.sampling import Film, Floats
 from mainspring.report.words import escape
 
 DEEPEST = -9

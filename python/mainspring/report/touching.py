@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from mainspring.drawing.outline import edge_path, number, start
+from mainspring.drawing.feature import marked
 from mainspring.report.sampling import Film
 from mainspring.simulation import Trajectory
 
@@ -61,23 +61,11 @@ class Collector:
     def _mark(self, feature: dict[str, Any]) -> int:
         key = tuple(feature.get(k) for k in ("part", "layer", "loop", "edge", "corner"))
         if key not in self._known:
-            drawn = self._drawn(feature)
+            drawn = marked(self._parts, feature)
             self._known[key] = len(self.found.marks) if drawn else -1
             if drawn:
                 self.found.marks.append((feature["part"], drawn))
         return self._known[key]
-
-    def _drawn(self, feature: dict[str, Any]) -> str:
-        """Return the feature's path, or nothing if it is not in the drawing."""
-        try:
-            loops = self._parts[feature["part"]]["layers"][feature["layer"]]["loops"]
-            segment = loops[feature["loop"]][feature["edge"]]
-        except (KeyError, IndexError, TypeError):
-            return ""
-        if not feature["corner"]:
-            return edge_path(segment)
-        x, y = start(segment)
-        return f"M{number(x)} {number(y)}h0"
 
 
 def touching(outlines: dict[str, Any], motion: Trajectory, film: Film) -> Touching:

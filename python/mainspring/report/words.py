@@ -1,6 +1,7 @@
 """Small pieces of HTML: part names in their colours, tables, numbers."""
 
 import html
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -30,6 +31,11 @@ def coloured(sentence: str, colour: Mapping[str, str]) -> str:
 def figure(value: float, digits: int = 6) -> str:
     """Return a number with a real minus sign and at most so many significant digits."""
     return minus(f"{value + 0.0:.{digits}g}")
+
+
+def position(value: float, motion: str) -> str:
+    """Return a joint position in degrees or the file's length, to about a hundredth of a degree."""
+    return f"{figure(round(math.degrees(value), 2))}°" if motion == "turn" else figure(value, 5)
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], numeric: Iterable[int] = ()) -> str:

@@ -1,0 +1,129 @@
+"use strict";
+(() => {
+  const space = JSON.parse(document.getElementById("space").textContent);
+  const $ = (id) => document.getElementById(id);
+  const all = (q, within = document) => [...within.querySelectorAll(q)];
+  const map = $("map"), stage = document.querySelector(".stage"), machine = stage.querySelector("svg");
+  const here = map.querySelector(".here"), near = map.querySelector(".near"), toward = map.querySelector(".toward");
+  const free = map.querySelector("defs .cs-free");
+  const [X, Y] = space.axes, [left, top, wide, tall] = space.box;
+  const marks = all(".touch", machine);
+  const minus = (s) => String(s).replace("-", "−");
+
+  // Configurations to pixels of the map and back.
+  const across = wide / (X.view[1] - X.view[0]), up = tall / (Y.view[1] - Y.view[0]);
+  const pixel = ([a, b]) => [left + (a - X.view[0]) * across, top + (Y.view[1] - b) * up];
+  const value = ([x, y]) => [X.view[0] + (x - left) / across, Y.view[1] - (y - top) / up];
+
+  // The same place within the stored tile.
+  function wrapped(v, axis) {
+    if (!axis.period) return v;
+    return v - Math.floor((v - axis.tile[0]) / axis.period) * axis.period;
+  }
+  const inTile = (q) => [wrapped(q[0], X), wrapped(q[1], Y)];
+
+  function isFree(q) {
+    if (!free) return false;
+    const [x, y] = pixel(inTile(q));
+    const point = map.createSVGPoint();
+    point.x = x; point.y = y;
+    return free.isPointInFill(point);
+  }
+
+  // Curves in pixels, once for all.
+  const curves = space.curves.map((c) => ({ ...c, px: c.p.map(pixel) }));
+  const steps = (axis, scale) => axis.period ? [-axis.period * scale, 0, axis.period * scale] : [0];
+  const shiftsX = steps(X, across), shiftsY = steps(Y, -up);
+
+  // The place on a contact curve nearest in the picture.
+  function nearest(q) {
+    const [x, y] = pixel(inTile(q));
+    let best = null, least = Infinity;
+    for (const curve of curves) for (let i = 1; i < curve.px.length; i++) {
+      const [ax, ay] = curve.px[i - 1], dx = curve.px[i][0] - ax, dy = curve.px[i][1] - ay, l = dx * dx + dy * dy;
+      for (const sx of shiftsX) for (const sy of shiftsY) {
+        const px = x - ax - sx, py = y - ay - sy;
+        const f = l > 0 ? Math.min(1, Math.max(0, (px * dx + py * dy) / l)) : 0;
+        const ex = px - f * dx, ey = py - f * dy, d = ex * ex + ey * ey;
+        if (d < least) { least = d; best = { curve, off: [-ex, -ey] }; }
+      }
+    }
+    return best;
+  }
+
+  // The machine.
+  const groups = all("g[data-part],g[data-on]", machine).map((g) => ({
+    g, joints: (space.chains[g.dataset.part || g.dataset.on] || []).map((name) => ({ name, m: space.motions[name] })),
+  })).filter(({ joints }) => joints.length);
+  for (const g of all(".part", machine)) g.classList.toggle("aside", !space.parts.includes(g.dataset.part));
+  function turn(m, x) {
+    if (m.kind === "turn") return `rotate(${(x * 180 / Math.PI).toFixed(4)} ${m.at[0]} ${m.at[1]})`;
+    return `translate(${x * m.at[0]} ${x * m.at[1]})`;
+  }
+  function position(name, q) {
+    const [axis, ratio] = space.moves[name] || [0, 0];
+    return ratio ? ratio * q[axis] : space.others[name] || 0;
+  }
+
+  let q = space.start.slice(), held = false;
+  const said = (v, axis) => minus(axis.turns ? (v * 180 / Math.PI).toFixed(2) + "°" : v.toPrecision(5));
+
+  function show() {
+    const open = isFree(q), hit = nearest(q), [x, y] = pixel(q);
+    for (const { g, joints } of groups) {
+      g.setAttribute("transform", joints.map(({ name, m }) => turn(m, position(name, q))).join(" "));
+    }
+    here.setAttribute("cx", x); here.setAttribute("cy", y);
+    stage.classList.toggle("blocked", !open);
+    const lit = new Set(hit ? hit.curve.m : []);
+    marks.forEach((m, i) => { m.style.opacity = lit.has(i) ? 1 : 0; });
+    near.style.display = toward.style.display = hit ? "" : "none";
+    if (hit) {
+      const nx = x + hit.off[0], ny = y + hit.off[1];
+      near.setAttribute("cx", nx); near.setAttribute("cy", ny);
+      toward.setAttribute("d", `M${x} ${y}L${nx} ${ny}`);
+    }
+    const word = open ? "free" : "blocked";
+    const touching = hit ? ` Nearest in the map: ${hit.curve.t}.` : "";
+    $("where").textContent = `${X.name} ${said(q[0], X)}, ${Y.name} ${said(q[1], Y)}: ${word}.${touching}`;
+  }
+  function clamp(v, axis) { return Math.min(axis.view[1], Math.max(axis.view[0], v)); }
+  function go(to) { q = [clamp(to[0], X), clamp(to[1], Y)]; show(); }
+  function toContact() {
+    const hit = nearest(q);
+    if (!hit) return;
+    const [x, y] = pixel(q);
+    held = true;
+    go(value([x + hit.off[0], y + hit.off[1]]));
+  }
+  function toStart() { held = true; go(space.start); }
+
+  // Pointer and keys.
+  function pointed(e) {
+    const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(map.getScreenCTM().inverse());
+    return value([p.x, p.y]);
+  }
+  map.addEventListener("pointermove", (e) => {
+    if (e.buttons || (e.pointerType === "mouse" && !held)) go(pointed(e));
+  });
+  map.addEventListener("pointerdown", (e) => { map.setPointerCapture(e.pointerId); go(pointed(e)); });
+  map.addEventListener("click", () => { held = !held; });
+  map.addEventListener("keydown", (e) => {
+    if (e.ctrlKey || e.metaKey || e.altKey) return;
+    const far = e.shiftKey ? 0.05 : 0.005, sx = far * (X.view[1] - X.view[0]), sy = far * (Y.view[1] - Y.view[0]);
+    const step = { ArrowLeft: [-sx, 0], ArrowRight: [sx, 0], ArrowUp: [0, sy], ArrowDown: [0, -sy] }[e.key];
+    if (step) { held = true; go([q[0] + step[0], q[1] + step[1]]); }
+    else if (e.key === "c" || e.key === "C") toContact();
+    else if (e.key === "s" || e.key === "S") toStart();
+    else if (e.key === "Escape") held = false;
+    else return;
+    e.preventDefault();
+  });
+  $("to-start").onclick = toStart;
+  $("to-contact").onclick = toContact;
+  if (location.hash.startsWith("#at=")) {
+    const at = location.hash.slice(4).split(",").map((v, k) => parseFloat(v) * (space.axes[k].turns ? Math.PI / 180 : 1));
+    if (at.length === 2 && at.every(Number.isFinite)) { q = at; held = true; }
+  }
+  show();
+})();
