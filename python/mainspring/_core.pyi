@@ -150,9 +150,11 @@ class Space:
     def picture_json(self) -> str:
         """Return free space within the stored domain as polygons, and what moves with which coordinate.
 
-        `{"free": [[[x, y]]], "moves": [{"part", "axis": 0 | 1, "ratio"}], "others": {part: position}}`;
+        `{"free": [[[x, y]]], "moves": [{"part", "axis": 0 | 1, "ratio"}], "others": {part: position},
+        "tiles": [{"part", "center", "angle"} | null]}`;
         polygons may reach over the domain's end, and both copies are there then; a part's position is `ratio`
-        times that of the axis.
+        times that of the axis. One period along an axis further, what touches is turned, as modelled, by the
+        tile's `angle` about its `center`.
         """
 
     def features_json(self, k: int) -> str:
@@ -180,8 +182,13 @@ class Space:
 
     def walk(
         self, start: tuple[float, float], axis: int, goal: float
-    ) -> tuple[list[tuple[int | None, tuple[float, float], tuple[float, float]]], str] | None:
-        """Return stages `(curve, from, to)` and `arrived`, `jammed` or `limit`; None from a blocked start."""
+    ) -> (
+        tuple[list[tuple[int | None, tuple[float, float], tuple[float, float], list[int] | None]], str] | None
+    ):
+        """Return stages and `arrived`, `jammed` or `limit`; None from a blocked start.
+
+        A stage is the curve, from, to, and the indices of the features that touch.
+        """
 
     def transmission(
         self, curve: int, fractions: NDArray[np.float64]

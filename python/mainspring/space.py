@@ -1,7 +1,7 @@
 """Configuration spaces: where two parts are free, where blocked, and the contact curves between."""
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -102,6 +102,10 @@ class ConfigurationSpace(Result):
             return Gap(float(gaps[0]), (int(features[0, 0]), int(features[0, 1])))
         return Gap(gaps, features)
 
+    def named(self, indices: Sequence[int]) -> tuple[Feature, Feature]:
+        """Return the two features with these indices, as `gap` gives them for one configuration."""
+        return self.features[0][indices[0]], self.features[1][indices[1]]
+
     def component(self, points: ArrayLike) -> Any:  # noqa: ANN401
         """Tell in which components configurations lie: an id (None if blocked), or `(n,)` ids with -1."""
         rows, one = _rows(points)
@@ -144,8 +148,7 @@ class ConfigurationSpace(Result):
         if not found:
             return None
         stages, end = found
-        features = [None if c is None else self.curves[c].features for c, _, _ in stages]
-        made = (Stage(*stage, touching) for stage, touching in zip(stages, features, strict=True))
+        made = (Stage(c, a, b, self.named(f) if f else None) for c, a, b, f in stages)
         return Walk(tuple(made), end)
 
     def transmission(

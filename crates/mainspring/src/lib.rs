@@ -12,6 +12,7 @@ mod space;
 mod space_json;
 mod space_picture;
 mod space_request;
+mod space_tiles;
 mod words;
 
 pub use drawing::drawing_json;

@@ -4,6 +4,7 @@
 //! goes in or comes out is in x of the two named joints: radians or the file's length.
 
 use crate::space_request::{Chosen, SpaceRequest, choose, told};
+use crate::space_tiles::Tiles;
 use mainspring_cspace::{Axis, ConfigurationSpace, End, Gap, Interval, SpaceOptions, Stage, Transmission};
 use mainspring_mechanism::{Feature, Mechanism, System};
 use mainspring_model::Error;
@@ -55,6 +56,7 @@ pub struct Space {
     pub(crate) moves: Vec<(String, usize, f64)>,
     /// Where all other moving parts are.
     pub(crate) others: Vec<(String, f64)>,
+    pub(crate) tiles: Tiles,
 }
 
 /// The space of the two parts a request names.
@@ -78,7 +80,8 @@ pub fn configuration_space(mechanism: &Mechanism, request: &SpaceRequest) -> Res
     let marks = marks(mechanism, &axes);
     let moves = moves(mechanism, &axes);
     let others = places(mechanism, &values);
-    Ok(Space { system, map, parts, axes, held, marks, moves, others })
+    let tiles = Tiles::new(&system, &map, parts);
+    Ok(Space { system, map, parts, axes, held, marks, moves, others, tiles })
 }
 
 /// The held joints that matter, by the part whose joint each is.
@@ -179,7 +182,15 @@ impl Space {
 
     /// The gap and the features at the nearest contact. See `ConfigurationSpace::gap`.
     pub fn gap(&self, x: [f64; 2]) -> Option<Gap> {
-        self.map.gap(self.q(x))
+        let q = self.q(x);
+        let gap = self.map.gap(q)?;
+        Some(Gap { features: self.tiles.at(&self.map, q, gap.features), ..gap })
+    }
+
+    /// What touches along a curve at a configuration on it, which may lie beyond the stored domain.
+    pub fn touching(&self, curve: u32, x: [f64; 2]) -> Option<[usize; 2]> {
+        let features = self.map.curve(curve)?.features();
+        Some(self.tiles.at(&self.map, self.q(x), features))
     }
 
     pub fn component_of(&self, x: [f64; 2]) -> Option<u32> {

@@ -4,7 +4,7 @@
 //! free space there; neighbours bounded by the same curves make one polygon.
 
 use crate::space::Space;
-use crate::words::clean;
+use crate::words::{clean, vec2};
 use mainspring_cspace::{Curve, Interval};
 use serde_json::{Map, Value, json};
 
@@ -82,7 +82,19 @@ impl Space {
             .collect();
         let others: Map<String, Value> =
             self.others.iter().map(|(part, x)| (part.clone(), json!(clean(*x)))).collect();
-        json!({"free": self.polygons(), "moves": moves, "others": others})
+        let tiles: Vec<Value> = (0..2).map(|k| self.tile_json(k)).collect();
+        json!({"free": self.polygons(), "moves": moves, "others": others, "tiles": tiles})
+    }
+
+    /// The turn of the body that repeats, for one period of the axis in its own sense; null where nothing repeats.
+    fn tile_json(&self, k: usize) -> Value {
+        self.map.tile_turn(k).map_or(Value::Null, |t| {
+            json!({
+                "part": self.system.bodies[t.body].name,
+                "center": vec2(t.center),
+                "angle": t.angle * self.senses()[k],
+            })
+        })
     }
 
     fn polygons(&self) -> Vec<Vec<[f64; 2]>> {

@@ -146,7 +146,7 @@ impl PySpace {
         way.map(|w| Ok((rows(py, &w.points)?, (w.winding[0], w.winding[1]), w.exact))).transpose()
     }
 
-    /// Pushes coordinate `axis` to `goal`: stages `(curve, from, to)` and how it ended; None from a blocked start.
+    /// Pushes coordinate `axis` to `goal`: stages `(curve, from, to, features)` and how it ended; None from a blocked start.
     #[expect(clippy::type_complexity, reason = "a plain row")]
     fn walk(
         &self,
@@ -154,10 +154,14 @@ impl PySpace {
         start: Point,
         axis: usize,
         goal: f64,
-    ) -> PyResult<Option<(Vec<(Option<u32>, Point, Point)>, &'static str)>> {
+    ) -> PyResult<Option<(Vec<(Option<u32>, Point, Point, Option<[usize; 2]>)>, &'static str)>> {
         let walk = py.detach(|| self.0.walk([start.0, start.1], axis.min(1), goal)).map_err(bad_input)?;
         Ok(walk.map(|(stages, end)| {
-            let row = |s: &mainspring::Stage| (s.curve, s.from.into(), s.to.into());
+            let middle = |s: &mainspring::Stage| [0, 1].map(|k| 0.5 * (s.from[k] + s.to[k]));
+            let row = |s: &mainspring::Stage| {
+                let features = s.curve.and_then(|c| self.0.touching(c, middle(s)));
+                (s.curve, s.from.into(), s.to.into(), features)
+            };
             (stages.iter().map(row).collect(), word(end))
         }))
     }

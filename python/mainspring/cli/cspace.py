@@ -10,9 +10,9 @@ import mainspring as ms
 from mainspring.cli import opening, output, tables, values
 from mainspring.cli.faults import Usage
 from mainspring.cli.values import shortened
-from mainspring.drawing.feature import told
+from mainspring.drawing.feature import kind_told, told
 from mainspring.space import ConfigurationSpace
-from mainspring.space_parts import Feature, Interval
+from mainspring.space_parts import Feature
 
 SHOWN = 12  # curves in the table: a screen, not a scroll
 
@@ -133,7 +133,7 @@ def _answer(space: ConfigurationSpace, point: tuple[float, float]) -> dict[str, 
 def _named(space: ConfigurationSpace, indices: tuple[int, int]) -> list[Feature]:
     if min(indices) < 0:
         return []
-    return [of[i] for of, i in zip(space.features, indices, strict=True)]
+    return list(space.named(indices))
 
 
 class _Words:
@@ -169,6 +169,14 @@ class _Words:
         """Return which feature it is."""
         return told(self._parts, vars(feature))
 
+    def kind(self, feature: Feature) -> str:
+        """Return which feature of its part it is."""
+        return kind_told(self._parts, vars(feature))
+
+    def slope(self, slope: tuple[float, float] | None) -> str:
+        """Return a range of slopes."""
+        return " to ".join(tables.signed(v, 3) for v in slope) if slope else "upright"
+
 
 def account(space: ConfigurationSpace, words: _Words) -> None:
     """Say what the map shows, then its components and curves."""
@@ -191,12 +199,9 @@ def account(space: ConfigurationSpace, words: _Words) -> None:
     )
     heads = ("component", "copies", "winds", "boundary cycles", "inside")
     tables.show("free space", heads, rows, numeric=(0, 1, 3))
-    curves = (
-        (str(c.id), *map(words.feature, c.features), words.pair(c.start), words.pair(c.end))
-        for c in space.curves[:SHOWN]
-    )
+    curves = ((str(c.id), words.slope(c.slope), *map(words.kind, c.features)) for c in space.curves[:SHOWN])
     a, b = space.parts
-    tables.show("contact curves", ("curve", a, b, "from", "to"), curves, numeric=(0,))
+    tables.show("contact curves", ("curve", "slope", f"feature of {a}", f"of {b}"), curves, numeric=(0,))
     if len(space.curves) > SHOWN:
         print(f"and {len(space.curves) - SHOWN} more (all with --json)")
     print("\nwork: " + ", ".join(f"{k} {v}" for k, v in space.stats.items()))
@@ -239,12 +244,8 @@ def _tell_slice(space: ConfigurationSpace, name: str, value: float, words: _Word
     other = space.coordinates[1 - k]
     found = space.slice({name: value})
 
-    def bound(interval: Interval, end: int) -> str:
-        curve = interval.curves[end]
-        return "limit" if curve is None else " – ".join(map(words.feature, space.curves[curve].features))
-
     rows = (
-        (words.one(i.low, 1 - k), words.one(i.high, 1 - k), str(i.component), bound(i, 0), bound(i, 1))
+        (words.one(i.low, 1 - k), words.one(i.high, 1 - k), str(i.component), *map(_curve, i.curves))
         for i in found
     )
     again = space.domain[1 - k]
@@ -254,3 +255,7 @@ def _tell_slice(space: ConfigurationSpace, name: str, value: float, words: _Word
     if not found:
         print(f"\n{other} is nowhere free at {name} {words.one(value, k)}.")
     tables.show(title, heads, rows, numeric=(0, 1, 2))
+
+
+def _curve(number: int | None) -> str:
+    return "limit" if number is None else f"curve {number}"

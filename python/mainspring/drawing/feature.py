@@ -34,12 +34,17 @@ def _place(p: Any) -> str:  # noqa: ANN401
 
 def told(parts: Mapping[str, Part], feature: Mapping[str, Any]) -> str:
     """Say which feature it is: its part, its kind, and where it is as modelled."""
-    name, segment = feature["part"], segment_of(parts, feature)
+    return f"{feature['part']} {kind_told(parts, feature)}"
+
+
+def kind_told(parts: Mapping[str, Part], feature: Mapping[str, Any]) -> str:
+    """Say which feature of its part it is: its kind, and where it is as modelled."""
+    segment = segment_of(parts, feature)
     if segment is None:
-        return f"{name} {feature.get('kind', 'feature')}"
+        return str(feature.get("kind", "feature"))
     if feature["corner"]:
-        return f"{name} corner {_place(start(segment))}"
+        return f"corner {_place(start(segment))}"
     if segment["kind"] == "line":
-        return f"{name} edge {_place(segment['from'])} to {_place(segment['to'])}"
+        return f"edge {_place(segment['from'])} to {_place(segment['to'])}"
     kind = "arc" if segment["convex"] else "hollow arc"
-    return f"{name} {kind} about {_place(segment['center'])}, radius {segment['radius']:.3g}"
+    return f"{kind} about {_place(segment['center'])}, radius {segment['radius']:.3g}"

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from mainspring.drawing import picture, space_picture
-from mainspring.drawing.feature import marked, told
+from mainspring.drawing.feature import kind_told, marked, told
 from mainspring.drawing.palette import variables
 from mainspring.drawing.pose import chain
 from mainspring.drawing.space import STYLE as MAP_STYLE
@@ -48,7 +48,7 @@ def space_page(mechanism: Mechanism, space: ConfigurationSpace) -> str:
         f'<div class="pair"><figure class="chart">{drawn}</figure>'
         f'<figure class="stage">{machine}</figure></div>{_readout(data)}{_HINT}'
         + _components(space, colour)
-        + _contacts(space, data, colour)
+        + _contacts(space, data)
         + _colophon(space)
     )
     return _document(
@@ -161,7 +161,7 @@ def _components(space: ConfigurationSpace, colour: dict[str, str]) -> str:
     return section("Free space", table(heads, rows, (0, 1))) if rows else ""
 
 
-def _contacts(space: ConfigurationSpace, data: dict[str, Any], colour: dict[str, str]) -> str:
+def _contacts(space: ConfigurationSpace, data: dict[str, Any]) -> str:
     """List the curves by what touches."""
     parts = {p["name"]: p for p in data["outlines"]["parts"]}
     motions = [axis.motion for axis in space.domain]
@@ -171,7 +171,7 @@ def _contacts(space: ConfigurationSpace, data: dict[str, Any], colour: dict[str,
             " ".join(position(v, m) for v, m in zip(curve[k], motions, strict=True)) for k in ("from", "to")
         )
         slope = " to ".join(figure(v, 3) for v in curve["slope"]) if curve["slope"] else "upright"
-        features = (coloured(told(parts, f), colour) for f in curve["features"])
+        features = (escape(kind_told(parts, f)) for f in curve["features"])
         rows.append((str(curve["id"]), *features, *map(escape, ends), escape(slope)))
     a, b = space.parts
     heads = ("curve", f"feature of {a}", f"feature of {b}", "from", "to", "slope")
@@ -212,6 +212,7 @@ def _script_data(data: dict[str, Any], shown: Plot, curves: list[dict[str, Any]]
         "moves": {m["part"]: [m["axis"], m["ratio"]] for m in data["moves"]},
         "others": data["others"],
         "parts": data["parts"],
+        "tiles": data["tiles"],
     }
     return json.dumps(made, separators=(",", ":"), ensure_ascii=False).replace("</", "<\\/")
 

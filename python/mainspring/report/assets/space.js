@@ -20,6 +20,7 @@
     if (!axis.period) return v;
     return v - Math.floor((v - axis.tile[0]) / axis.period) * axis.period;
   }
+  const tiles = (v, axis) => axis.period ? Math.floor((v - axis.tile[0]) / axis.period) : 0;
   const inTile = (q) => [wrapped(q[0], X), wrapped(q[1], Y)];
 
   function isFree(q) {
@@ -54,7 +55,7 @@
   // The machine.
   const groups = all("g[data-part],g[data-on]", machine).map((g) => ({
     g, joints: (space.chains[g.dataset.part || g.dataset.on] || []).map((name) => ({ name, m: space.motions[name] })),
-  })).filter(({ joints }) => joints.length);
+  })).filter(({ g, joints }) => joints.length || g.firstElementChild.classList.contains("touch"));
   for (const g of all(".part", machine)) g.classList.toggle("aside", !space.parts.includes(g.dataset.part));
   function turn(m, x) {
     if (m.kind === "turn") return `rotate(${(x * 180 / Math.PI).toFixed(4)} ${m.at[0]} ${m.at[1]})`;
@@ -65,13 +66,22 @@
     return ratio ? ratio * q[axis] : space.others[name] || 0;
   }
 
+  // In a copy of the tile another tooth touches: what is lit is turned by as many periods.
+  function beyond(g) {
+    if (!g.firstElementChild.classList.contains("touch")) return "";
+    return space.axes.map((axis, k) => {
+      const t = space.tiles[k], n = tiles(q[k], axis);
+      return t && n && t.part === g.dataset.part ? ` rotate(${n * t.angle * 180 / Math.PI} ${t.center})` : "";
+    }).join("");
+  }
+
   let q = space.start.slice(), held = false;
   const said = (v, axis) => minus(axis.turns ? (v * 180 / Math.PI).toFixed(2) + "°" : v.toPrecision(5));
 
   function show() {
     const open = isFree(q), hit = nearest(q), [x, y] = pixel(q);
     for (const { g, joints } of groups) {
-      g.setAttribute("transform", joints.map(({ name, m }) => turn(m, position(name, q))).join(" "));
+      g.setAttribute("transform", joints.map(({ name, m }) => turn(m, position(name, q))).join(" ") + beyond(g));
     }
     here.setAttribute("cx", x); here.setAttribute("cy", y);
     stage.classList.toggle("blocked", !open);
