@@ -2,13 +2,14 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
 
 from conftest import ESCAPEMENT
 
-COMMANDS = ("demo", "inspect", "simulate", "predict", "examples", "cite")
+COMMANDS = ("demo", "inspect", "cspace", "simulate", "predict", "examples", "cite")
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -28,6 +29,7 @@ def test_top_help_lists_the_commands(cli):
     [
         ("inspect", ESCAPEMENT),
         ("simulate", ESCAPEMENT, "--until", "5"),
+        ("cspace", ESCAPEMENT, "ewheel", "lever"),
         ("predict", ESCAPEMENT),
         ("demo",),
         ("examples",),
@@ -113,7 +115,10 @@ def test_cite_follows_the_result(cli, tmp_path):
     said = cli("cite", "p.json").stdout
     assert "Gelsey" in said
     assert "Moreau" not in said
-    assert "Moreau" in cli("cite").stdout
+    (tmp_path / "s.json").write_text(cli("cspace", ESCAPEMENT, "ewheel", "lever", "--json").stdout)
+    assert "Sacks" in cli("cite", "s.json").stdout
+    assert "Sacks" not in said
+    assert {"Moreau", "Sacks"} <= set(re.findall(r"\w+", cli("cite").stdout))
 
 
 def test_svg_draws_true_arcs(cli, tmp_path):

@@ -7,8 +7,13 @@ from conftest import ESCAPEMENT, command_line
 
 @pytest.mark.parametrize(
     "arguments",
-    [("inspect",), ("simulate", "--until", "20", "--out", "run", "--csv"), ("predict", "--report", "r.html")],
-    ids=["inspect", "simulate", "predict"],
+    [
+        ("inspect",),
+        ("cspace", "ewheel", "lever", "--svg", "s.svg", "--html", "s.html", "--slice", "lever=3deg"),
+        ("simulate", "--until", "20", "--out", "run", "--csv"),
+        ("predict", "--report", "r.html"),
+    ],
+    ids=["inspect", "cspace", "simulate", "predict"],
 )
 def test_bytes_do_not_depend_on_the_hash_seed(tmp_path, arguments):
     made = []

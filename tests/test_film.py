@@ -5,10 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
+from mainspring.drawing.ticks import Axis
 from mainspring.report import page
 from mainspring.report.plots import line
 from mainspring.report.sampling import film
-from mainspring.drawing.ticks import Axis
 
 
 def test_a_run_that_never_moves_has_a_page(mechanism, simulation):
