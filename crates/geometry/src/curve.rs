@@ -34,6 +34,11 @@ pub enum Root {
     /// The curves touch: the foot of the centre on the line, or the point on the line of centres.
     /// Evaluated by projection, so derivatives stay finite where the two roots fall together.
     Tangent,
+    /// Of edges given by walls: where the first curve's wall starts. Such a corner is no common point of curves:
+    /// it is known from the wall that starts there.
+    Start,
+    /// Of edges given by walls: where the first curve's wall ends.
+    End,
 }
 
 impl<S: Scalar> Curve<S> {

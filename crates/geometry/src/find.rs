@@ -77,7 +77,7 @@ impl OutlineRecipe {
                 break;
             }
         }
-        Ok(Self { layers: outcome?, csg: csg.clone() })
+        Ok(Self { layers: outcome?, csg: csg.clone(), walls: None })
     }
 }
 

@@ -101,6 +101,18 @@ fn plane_across(n: Vec3) -> Rigid3 {
     machine_from_plane.inverse()
 }
 
+/// Of unit density, from an outline known already: exact.
+///
+/// # Panics
+/// If `primitives` is not the list the recipe was found on.
+pub fn mass_properties_of_outline(
+    recipe: &OutlineRecipe,
+    primitives: &[Primitive],
+    plane_from_machine: &Rigid3,
+) -> MassProperties {
+    of_prism(recipe, primitives, plane_from_machine)
+}
+
 fn of_prism(recipe: &OutlineRecipe, primitives: &[Primitive], plane: &Rigid3) -> MassProperties {
     let outline = recipe.evaluate(primitives, plane);
     let Some((min, max)) = outline.bounds() else {

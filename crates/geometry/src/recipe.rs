@@ -2,7 +2,10 @@
 
 use crate::chain::segment_on;
 use crate::section::cap_height;
-use crate::{Csg, Curve, CurveId, Edge, Layer, Loop, Outline, Primitive, Rigid3, Root, Scalar, Turn, Vec2};
+use crate::{
+    Csg, Curve, CurveId, Edge, Layer, Loop, Outline, Primitive, Rigid3, Root, Scalar, Shape, Turn, Vec2,
+    Vec3, WallLayer, crossing,
+};
 use std::fmt;
 
 /// A corner as a common point of two curves: one identity, however many primitives share it.
@@ -53,6 +56,8 @@ pub struct OutlineRecipe {
     /// From bottom to top.
     pub layers: Vec<LayerRecipe>,
     pub(crate) csg: Csg,
+    /// Given edge by edge, and not found from the set expression.
+    pub(crate) walls: Option<Vec<WallLayer>>,
 }
 
 /// Why a part has no planar outline.
@@ -122,7 +127,23 @@ impl OutlineRecipe {
     /// Does the same order of features hold at other values? Found again there and compared; curves that
     /// merely coincide with an owner may come and go.
     pub fn holds_at(&self, primitives: &[Primitive], plane_from_machine: &Rigid3) -> bool {
-        Self::find(primitives, &self.csg, plane_from_machine).is_ok_and(|other| self.same_order(&other))
+        let Some(walls) = &self.walls else {
+            return Self::find(primitives, &self.csg, plane_from_machine).is_ok_and(|o| self.same_order(&o));
+        };
+        let other = Self::of_walls(primitives, walls, plane_from_machine);
+        let simple = |o: &Self| o.is_simple(primitives, plane_from_machine);
+        other.is_ok_and(|o| self.same_order(&o) && simple(&o))
+    }
+
+    /// Do no two edges of a layer touch but where they follow each other?
+    fn is_simple(&self, primitives: &[Primitive], plane: &Rigid3) -> bool {
+        let outline = self.evaluate(primitives, plane);
+        let tolerance = 1e-9 * outline.size();
+        let segments = |l: &Loop| l.edges.iter().map(|e| e.segment).collect();
+        outline.layers.iter().all(|l| {
+            let loops: Vec<Vec<_>> = l.loops.iter().map(segments).collect();
+            crossing(&loops, tolerance) == Ok(None)
+        })
     }
 
     /// The same layers, loops, owners, corners and turns?
@@ -144,9 +165,9 @@ impl OutlineRecipe {
 }
 
 /// Primitives at given values, seen from the working plane.
-struct Placed<'a, S> {
-    primitives: &'a [Primitive<S>],
-    plane: &'a Rigid3<S>,
+pub(crate) struct Placed<'a, S> {
+    pub primitives: &'a [Primitive<S>],
+    pub plane: &'a Rigid3<S>,
 }
 
 impl<S: Scalar> Placed<'_, S> {
@@ -161,10 +182,25 @@ impl<S: Scalar> Placed<'_, S> {
 
     fn corner(&self, edge: &EdgeRecipe) -> Option<Vec2<S>> {
         let Corner { curves: [a, b], root } = edge.start?;
+        if matches!(root, Root::Start | Root::End) {
+            return Some(self.start_of(edge.curve));
+        }
         Some(self.curve(a).meet(&self.curve(b), root))
     }
 
-    fn walk(&self, recipe: &LoopRecipe) -> Loop<S> {
+    /// Where a wall starts: at the block's origin, or where the cylinder's own x axis meets the circle.
+    fn start_of(&self, wall: CurveId) -> Vec2<S> {
+        let primitive = &self.primitives[wall.primitive as usize];
+        let o = S::constant(0.0);
+        let local = match primitive.shape {
+            Shape::Cylinder { radius, .. } => Vec3::new(radius, o, o),
+            _ => Vec3::new(o, o, o),
+        };
+        let p = self.plane.then_after(&primitive.machine_from_local).apply(local);
+        Vec2::new(p.x, p.y)
+    }
+
+    pub(crate) fn walk(&self, recipe: &LoopRecipe) -> Loop<S> {
         let mut corners: Vec<_> = recipe.edges.iter().map(|e| self.corner(e)).collect();
         for (i, _) in recipe.edges.iter().enumerate().filter(|(_, e)| e.full_turn) {
             let next = (i + 1) % corners.len();

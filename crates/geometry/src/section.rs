@@ -34,7 +34,7 @@ impl Section {
     /// `None` if the primitive is not a prism along the plane's normal.
     pub fn of(index: u32, primitive: &Primitive, plane_from_machine: &Rigid3) -> Option<Self> {
         let pose = plane_from_machine.then_after(&primitive.machine_from_local);
-        let upright = |k: usize| pose.columns[k].x.hypot(pose.columns[k].y) <= LEAN;
+        let upright = |k: usize| is_upright(&pose, k);
         let (caps, faces) = match primitive.shape {
             Shape::Block { .. } => {
                 let axis = (0..3).find(|&k| upright(k))?;
@@ -78,6 +78,12 @@ impl Section {
         };
         flat.min(self.z[1] - self.z[0])
     }
+}
+
+/// Is local axis `k` along the plane's normal?
+pub(crate) fn is_upright(plane_from_local: &Rigid3, k: usize) -> bool {
+    let axis = plane_from_local.columns[k];
+    axis.x.hypot(axis.y) <= LEAN
 }
 
 /// The four lateral faces of a block whose caps are normal to local `axis`, around that axis.

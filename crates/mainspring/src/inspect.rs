@@ -3,7 +3,7 @@
 use crate::joints::joints_json;
 use crate::words::{clean, vec3};
 use mainspring_mechanism::{Mechanism, Pair, PairKind, Subsystem};
-use mainspring_model::{Machine, Parameter};
+use mainspring_model::{Machine, Mark, Parameter};
 use serde_json::{Value, json};
 
 /// Pairs of parts listed that may touch: more are of no use to a reader, and take a gibibyte.
@@ -40,17 +40,29 @@ pub fn inspect_json(m: &Mechanism) -> Value {
         "plane": plane(m),
         "gravity": vec3(m.gravity),
         "contact": {"E": m.contact.e, "D": m.contact.d, "M": m.contact.m},
-        "units": {"length": null, "time": null, "angle": "rad"},
+        "units": units(m),
+        "marks": m.machine.supplement().marks.iter().map(|k| mark(m, k)).collect::<Vec<_>>(),
     })
 }
 
-/// The parameters of a machine: name, value at the defaults, range.
+/// The parameters of a machine: name, value at the defaults, range, unit and meaning.
 pub fn parameters_json(machine: &Machine) -> Value {
     let one = |p: &Parameter| {
         let range = p.range.map(|(low, high)| [low, high]);
-        json!({"name": p.name, "value": p.default, "range": range})
+        json!({"name": p.name, "value": p.default, "range": range, "whole": p.whole, "unit": p.unit, "meaning": p.meaning})
     };
     machine.parameters().iter().map(one).collect()
+}
+
+/// The units stated in the file; angles in results are radians.
+fn units(m: &Mechanism) -> Value {
+    let units = m.machine.units();
+    json!({"length": units.length, "time": units.time, "angle": "rad", "mass": units.mass})
+}
+
+/// A named value of a part's coordinate, in radians or the file's length.
+fn mark(m: &Mechanism, mark: &Mark) -> Value {
+    json!({"part": m.parts[mark.part].name, "name": mark.name, "value": clean(mark.value * m.unit(mark.part))})
 }
 
 /// Two names in order, letter case ignored.

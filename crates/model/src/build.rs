@@ -12,6 +12,7 @@ use crate::shape_text::ShapeText;
 use crate::solids::Solids;
 use crate::supplement::Supplement;
 use crate::syntax::{RawCopies, RawMotion, RawShape, Syntax};
+use crate::units::Units;
 
 /// The machine of a model's text, without its supplement.
 pub(crate) fn build(syntax: &Syntax, files: [String; 2]) -> Read<Machine> {
@@ -31,7 +32,7 @@ pub(crate) fn build(syntax: &Syntax, files: [String; 2]) -> Read<Machine> {
         let name = resolved.name_of_definition(d).to_string();
         let place = syntax.definitions[d as usize].place;
         let (is_frame, density) = (attributes.frame == Some(i), attributes.densities[i].clone());
-        parts.push(PartModel { name, csg, is_frame, density, place });
+        parts.push(PartModel { name, csg, is_frame, density, walls: None, place });
     }
     let Expansion { poses, leaves, gears, unions, .. } = expansion;
     let order = parameter_order(&resolved);
@@ -52,6 +53,9 @@ pub(crate) fn build(syntax: &Syntax, files: [String; 2]) -> Read<Machine> {
         gears,
         unions,
         supplement,
+        units: Units::default(),
+        native: None,
+        wall_texts: Vec::new(),
     };
     machine.find_defaults();
     Ok(machine)
@@ -65,7 +69,15 @@ fn parameters(resolved: &Resolved) -> Read<(Vec<Parameter>, Vec<Option<Expressio
         let formal = resolved.syntax.names[*name as usize].formal;
         let place = text.map(|d| d.place).or(formal).unwrap_or_default();
         let range = text.and_then(|d| d.range);
-        parameters.push(Parameter { name: resolved.name(*name).to_string(), default: None, range, place });
+        parameters.push(Parameter {
+            name: resolved.name(*name).to_string(),
+            default: None,
+            range,
+            whole: false,
+            unit: None,
+            meaning: None,
+            place,
+        });
         expressions.push(text.map(|d| resolved.expression(&d.ops)).transpose()?);
     }
     Ok((parameters, expressions))

@@ -2,7 +2,7 @@
 
 use crate::error::Place;
 use crate::expression::Expression;
-use mainspring_geometry::{Axis, Csg};
+use mainspring_geometry::{Axis, Csg, WallLayer};
 
 /// A numeric definition; every one can be overridden.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,12 @@ pub struct Parameter {
     pub default: Option<f64>,
     /// Least and greatest value allowed, both included.
     pub range: Option<(f64, f64)>,
+    /// Only whole numbers are allowed, as for numbers of teeth.
+    pub whole: bool,
+    /// As written, for display; none if not given.
+    pub unit: Option<String>,
+    /// What it means, in one line; none if not given.
+    pub meaning: Option<String>,
     pub place: Place,
 }
 
@@ -25,6 +31,8 @@ pub struct PartModel {
     pub csg: Csg,
     pub is_frame: bool,
     pub density: Option<Density>,
+    /// The layers of a part drawn by its boundaries; its primitives are their walls (see [`crate::Machine::at`]).
+    pub walls: Option<Vec<WallLayer>>,
     /// Where the part is defined.
     pub place: Place,
 }

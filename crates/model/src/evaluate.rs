@@ -82,6 +82,9 @@ impl Machine {
         };
         let x = value.re();
         match parameter.range {
+            _ if parameter.whole && x.fract() != 0.0 => {
+                Err(Fault::new(place, format!("{name} is {}; expected a whole number", number(x))))
+            }
             _ if !x.is_finite() => Err(Fault::new(place, format!("{name} is {x}; expected a finite number"))),
             Some((low, high)) if x < low || x > high => Err(Fault::new(
                 place,
@@ -138,6 +141,7 @@ impl Machine {
             }
             primitives.push(Primitive { shape: shapes[leaf.shape as usize], machine_from_local: pose });
         }
+        self.add_walls(&values.numbers, &mut primitives)?;
         Ok(primitives)
     }
 

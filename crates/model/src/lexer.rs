@@ -51,11 +51,18 @@ pub(crate) struct Lexer<'a> {
     place: Place,
     /// The brackets that are open, outermost first.
     open: Vec<(u8, Place)>,
+    /// Line ends are white space everywhere.
+    flat: bool,
 }
 
 impl<'a> Lexer<'a> {
     pub fn new(text: &'a str, file: u8) -> Self {
-        Self { text, at: 0, place: Place { file, line: 1, column: 1 }, open: Vec::new() }
+        Self { text, at: 0, place: Place { file, line: 1, column: 1 }, open: Vec::new(), flat: false }
+    }
+
+    /// Of a piece of a file that begins at a place; its line ends are white space.
+    pub fn within(text: &'a str, place: Place) -> Self {
+        Self { text, at: 0, place, open: Vec::new(), flat: true }
     }
 
     /// The innermost open bracket.
@@ -100,7 +107,7 @@ impl<'a> Lexer<'a> {
             match byte {
                 b' ' | b'\t' => self.advance(1),
                 b'#' => self.skip_comment(),
-                b'\n' | b'\r' if !self.open.is_empty() => {
+                b'\n' | b'\r' if self.flat || !self.open.is_empty() => {
                     self.line_end();
                 }
                 b'\\' => self.continuation()?,

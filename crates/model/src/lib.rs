@@ -16,6 +16,7 @@ pub mod limits;
 mod load;
 mod machine;
 mod names;
+mod native;
 mod parse_file;
 mod parse_forces;
 mod parse_number;
@@ -23,20 +24,24 @@ mod parse_solid;
 mod parse_supplement;
 mod parser;
 mod placement;
+mod profile;
 mod resolve;
 mod shape_text;
 mod solids;
 mod source;
 mod supplement;
 mod syntax;
+mod units;
 mod values;
 
 pub use description::{Density, Gear, GearMember, Parameter, PartModel, SymmetricUnion, SymmetryKind};
 pub use error::{Error, Place, quote};
 pub use expression::Expression;
 pub use machine::Machine;
+pub use native::MotionOver;
 pub use supplement::{
-    ContactData, DriveData, DriveKind, ForceData, GravityData, MassData, PairData, PartNumber, Spring,
-    StopData, Supplement,
+    ContactData, DriveData, DriveKind, ForceData, GearPairData, GravityData, Mark, MassData, MotionData,
+    MotionKind, PairData, PartNumber, Spring, StopData, Supplement,
 };
+pub use units::Units;
 pub use values::{Overrides, Values, parse_setting};

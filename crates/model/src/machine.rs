@@ -3,9 +3,13 @@
 use crate::description::{Gear, Parameter, PartModel, SymmetricUnion};
 use crate::error::{Error, Place, Read, SETTING_FILE, file_name};
 use crate::expression::Expression;
+use crate::native::Native;
 use crate::placement::{Copies, Placement, PoseStep};
+use crate::profile::WallText;
 use crate::shape_text::ShapeText;
 use crate::supplement::Supplement;
+use crate::units::Units;
+use std::sync::Arc;
 
 /// A machine as a person edits it: parameters, parts and supplement.
 #[derive(Clone, Debug)]
@@ -26,6 +30,11 @@ pub struct Machine {
     pub(crate) gears: Vec<Gear>,
     pub(crate) unions: Vec<SymmetricUnion>,
     pub(crate) supplement: Supplement,
+    pub(crate) units: Units,
+    /// What only a TOML file says; none for a machine in PADL.
+    pub(crate) native: Option<Arc<Native>>,
+    /// Of the primitives after those of the solids: the walls of drawn parts.
+    pub(crate) wall_texts: Vec<WallText>,
 }
 
 /// A primitive after expansion: a shape of the text at a pose.
@@ -81,19 +90,35 @@ impl Machine {
         &self.unions
     }
 
-    /// Number of primitives in all parts.
+    /// Was it read from a TOML file?
+    pub fn is_toml(&self) -> bool {
+        self.native.is_some()
+    }
+
+    /// The units the file states.
+    pub fn units(&self) -> &Units {
+        &self.units
+    }
+
+    /// Number of primitives in all parts, walls of drawn parts at the values last put in included.
     pub fn primitive_count(&self) -> usize {
-        self.leaves.len()
+        self.leaves.len() + self.wall_texts.len()
     }
 
     /// Where a primitive is written; the default place if there is no such primitive.
     pub fn place_of_primitive(&self, primitive: u32) -> Place {
-        self.shape_of(primitive).map_or(Place::default(), |s| s.place)
+        let wall = self.wall_of(primitive).map_or(Place::default(), |w| w.place);
+        self.shape_of(primitive).map_or(wall, |s| s.place)
     }
 
     /// A primitive in words, for example `tooth (blo)`: the solid whose definition it stands in, and its kind.
     pub fn label_of_primitive(&self, primitive: u32) -> String {
-        self.shape_of(primitive).map_or(String::new(), |s| s.label.clone())
+        let wall = self.wall_of(primitive).map_or(String::new(), |w| w.label.clone());
+        self.shape_of(primitive).map_or(wall, |s| s.label.clone())
+    }
+
+    fn wall_of(&self, primitive: u32) -> Option<&WallText> {
+        self.wall_texts.get((primitive as usize).checked_sub(self.leaves.len())?)
     }
 
     fn shape_of(&self, primitive: u32) -> Option<&ShapeText> {

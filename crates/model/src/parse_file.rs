@@ -79,7 +79,7 @@ impl Parser<'_> {
     }
 
     /// Refuses a second definition of a name.
-    fn announce(&self, name: u32, place: Place) -> Read<()> {
+    pub fn announce(&self, name: u32, place: Place) -> Read<()> {
         let entry = &self.syntax.names[name as usize];
         let earlier = match entry.definition {
             Some(d) => Some(self.syntax.definitions[d as usize].place),

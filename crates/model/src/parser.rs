@@ -48,6 +48,25 @@ impl<'a> Parser<'a> {
         Ok(Self { lexer, token, names: HashMap::new(), syntax, ops: Vec::new(), current: 0, nodes: 0 })
     }
 
+    /// For a piece of a file that begins at a place.
+    pub fn within(text: &'a str, place: Place) -> Read<Self> {
+        let mut parser = Self::new("", place.file)?;
+        parser.enter(text, place)?;
+        Ok(parser)
+    }
+
+    /// Goes on with another piece of a file; names stay known.
+    pub fn enter(&mut self, text: &'a str, place: Place) -> Read<()> {
+        self.lexer = Lexer::within(text, place);
+        self.token = self.lexer.next()?;
+        Ok(())
+    }
+
+    /// Operations read so far, in all pieces.
+    pub fn nodes(&self) -> usize {
+        self.nodes
+    }
+
     /// Takes the current token.
     pub fn take(&mut self) -> Read<Token<'a>> {
         let taken = self.token;

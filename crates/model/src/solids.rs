@@ -108,7 +108,8 @@ impl Solids {
             stack.push((self.nodes.len() as u32, size));
             self.nodes.push(node);
         }
-        let (root, size) = stack.pop().unwrap_or_default();
+        // A part without a solid.
+        let Some((root, size)) = stack.pop() else { return Ok(()) };
         if let Some(excess) = size.excess() {
             return Err(Fault::new(
                 definition.place,

@@ -20,7 +20,7 @@ pub struct Spring {
 pub struct PairData {
     /// Index of the moving part.
     pub part: usize,
-    /// Index of its carrier: the frame or another moving part.
+    /// Index of its carrier: the frame or another moving part; the part itself: whatever carries it.
     pub other: usize,
     /// Moment of inertia about the joint's axis, or mass for sliding parts; none: from density or mass.
     pub inertia: Option<f64>,
@@ -118,6 +118,47 @@ pub struct ContactData {
     pub place: Place,
 }
 
+/// How a part moves, where the file says so and it is not to be found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MotionKind {
+    /// About a point of the plane, counterclockwise; the axis is z.
+    Turns { center: [f64; 2] },
+    /// Along a direction of the plane, of any length but zero.
+    Slides { direction: [f64; 2] },
+    /// It does not move on its carrier.
+    Fixed,
+}
+
+/// A stated motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionData {
+    pub part: usize,
+    /// Index of the part that carries it.
+    pub carrier: usize,
+    pub kind: MotionKind,
+    pub place: Place,
+}
+
+/// Two parts stated to mesh as gears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GearPairData {
+    pub parts: [usize; 2],
+    pub teeth: [u32; 2],
+    /// One of them has its teeth inside: both turn the same way.
+    pub internal: bool,
+    pub place: Place,
+}
+
+/// A named value of a part's coordinate, such as where a pawl is released.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    pub part: usize,
+    pub name: String,
+    /// Degrees, or the file's length.
+    pub value: f64,
+    pub place: Place,
+}
+
 /// What shapes do not tell. Each part is in each list at most once, and has at most one force and one drive.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Supplement {
@@ -132,6 +173,10 @@ pub struct Supplement {
     pub masses: Vec<MassData>,
     pub gravity: Option<GravityData>,
     pub contact: Option<ContactData>,
+    /// In the order of the parts.
+    pub motions: Vec<MotionData>,
+    pub gears: Vec<GearPairData>,
+    pub marks: Vec<Mark>,
 }
 
 impl Supplement {

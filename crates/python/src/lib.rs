@@ -16,6 +16,7 @@ use space::PySpace;
 fn _core(py: Python<'_>, module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("InputError", py.get_type::<InputError>())?;
     module.add_function(wrap_pyfunction!(machine::load, module)?)?;
+    module.add_function(wrap_pyfunction!(machine::parse, module)?)?;
     module.add_class::<PyMachine>()?;
     module.add_class::<PyMechanism>()?;
     module.add_class::<PyRun>()?;

@@ -21,6 +21,13 @@ pub fn load(py: Python<'_>, model: &str, supplement: Option<&str>) -> PyResult<P
     Ok(PyMachine(Arc::new(read.map_err(bad_input)?)))
 }
 
+/// Read a machine from a text; the ending of the name, which errors show, says which language it is in.
+#[pyfunction]
+pub fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<PyMachine> {
+    let read = py.detach(|| Machine::parse(name, text.as_bytes(), None));
+    Ok(PyMachine(Arc::new(read.map_err(bad_input)?)))
+}
+
 /// What a person edits: solids, parameters, springs.
 #[pyclass(name = "Machine", module = "mainspring._core", frozen)]
 pub struct PyMachine(Arc<Machine>);
@@ -35,6 +42,16 @@ impl PyMachine {
     /// Parameters with their values and ranges, in the order of the text.
     fn parameters_json(&self) -> String {
         parameters_json(&self.0).to_string()
+    }
+
+    /// The file's text with new values of some parameters.
+    fn text_with(&self, set: Values) -> PyResult<String> {
+        self.0.text_with(&set).map_err(bad_input)
+    }
+
+    /// Write that text, whole or not at all.
+    fn save(&self, py: Python<'_>, path: &str, set: Values) -> PyResult<()> {
+        py.detach(|| self.0.save(Path::new(path), &set)).map_err(bad_input)
     }
 
     /// Evaluate the shapes with these parameters and analyse them.

@@ -12,7 +12,9 @@ use super::patch::Scene;
 use super::plane::{self, WorkingPlane};
 use super::reach::{Parts, Placed};
 use super::subsystems::{Hold, holds};
-use mainspring_geometry::{Csg, Vec3};
+use super::{flat_pairs, stated};
+use mainspring_geometry::{Csg, Outline, OutlineBudget, OutlineRecipe, Rigid3, Vec3};
+use mainspring_model::{PartModel, Supplement};
 
 /// The shapes of all parts.
 pub(crate) struct Shapes<'a> {
@@ -21,6 +23,9 @@ pub(crate) struct Shapes<'a> {
     pub csgs: &'a [&'a Csg],
     pub leaves: &'a [Vec<u32>],
     pub label: &'a dyn Fn(u32) -> String,
+    pub models: &'a [PartModel],
+    /// Motions and gears that the file states.
+    pub stated: &'a Supplement,
 }
 
 /// What the shapes say about motion.
@@ -48,10 +53,14 @@ pub(crate) fn analyse(
     let (mut pairs, mut misses) = (lower.pairs, lower.misses);
     let meshes = meshes(gears, &pairs, scene.tolerance);
     pairs.extend(meshes.pairs);
+    pairs.extend(drawn_pairs(shapes, options.pair_clearance));
+    pairs.sort_by_key(|p| (!p.is_lower(), p.parts));
+    let told = stated::apply(&mut pairs, shapes.stated, frame, scene.tolerance);
     let many = misses.len() > MAX_MISSES;
     misses.truncate(MAX_MISSES);
     misses.extend(meshes.misses);
     let mut warnings: Vec<Warning> = meshes.warnings.into_iter().map(plain).collect();
+    warnings.extend(told);
     warnings.extend(cut_short(&lower.cut_short));
     let partly = "the parts have too many faces: near misses were not looked for everywhere";
     warnings.extend(lower.misses_cut_short.then(|| plain(partly.into())));
@@ -85,6 +94,36 @@ pub(crate) fn analyse(
     let rates = linkages.filter_map(|l| l.rates(&left_out)).collect();
     let plane = WorkingPlane { planar: plane::is_planar(&pairs, plane.normal), ..plane };
     Found { pairs, misses, plane, closed_chains, mobility, warnings, rates }
+}
+
+/// Pairs with drawn parts whose motion is not stated, by their boundaries in the plane z = 0.
+fn drawn_pairs(shapes: &Shapes<'_>, clearance: f64) -> Vec<Pair> {
+    let Scene { primitives, tolerance, .. } = *shapes.scene;
+    let is_free =
+        |i: usize| shapes.models[i].walls.is_some() && !shapes.stated.motions.iter().any(|m| m.part == i);
+    let n = shapes.models.len();
+    if !(0..n).any(is_free) {
+        return vec![];
+    }
+    let (plane, mut budget) = (Rigid3::identity(), OutlineBudget::default());
+    let mut outline = |i: usize| {
+        let recipe = match &shapes.models[i].walls {
+            Some(walls) => OutlineRecipe::of_walls(primitives, walls, &plane),
+            None => budget.half(|b| OutlineRecipe::find_within(primitives, shapes.csgs[i], &plane, b)),
+        };
+        recipe.ok().map(|r| r.evaluate(primitives, &plane))
+    };
+    let outlines: Vec<Option<Outline>> = (0..n).map(&mut outline).collect();
+    let mut found = Vec::new();
+    for i in 0..n {
+        for j in (i + 1..n).filter(|&j| is_free(i) || is_free(j)) {
+            let near = shapes.solids[i].bounds.grown(clearance + tolerance).touches(&shapes.solids[j].bounds);
+            if let (true, Some(a), Some(b)) = (near, &outlines[i], &outlines[j]) {
+                found.extend(flat_pairs::find([a, b], (i, j), clearance, tolerance));
+            }
+        }
+    }
+    found
 }
 
 fn cut_short(pairs: &[(usize, usize)]) -> Option<Warning> {

@@ -13,6 +13,7 @@ use super::patch::Scene;
 use super::plane::WorkingPlane;
 use super::reach::Parts;
 use super::region::without_leaves;
+use super::stated::find_surfaces;
 use super::subsystems::{holds, join, subsystems};
 use super::supplement::{given, reflected};
 use super::surface::lateral;
@@ -20,7 +21,9 @@ use super::symmetry::symmetries;
 use super::words;
 use super::work::Work;
 use crate::forces::ContactLaw;
-use mainspring_geometry::{Csg, Outline, OutlineBudget, OutlineError, OutlineRecipe, Primitive, Vec3};
+use mainspring_geometry::{
+    Csg, Outline, OutlineBudget, OutlineError, OutlineRecipe, Primitive, Rigid3, Vec3, WallLayer,
+};
 use mainspring_model::{Error, Machine, Values};
 use std::sync::Arc;
 
@@ -36,6 +39,7 @@ impl Mechanism {
         options: &CompileOptions,
     ) -> Result<Mechanism, Error> {
         let values = machine.values(set)?;
+        let machine = if machine.is_toml() { Arc::new(machine.at(&values)?) } else { machine };
         let primitives = machine.primitives(&values)?;
         let frame = machine.frame().ok_or_else(|| no_frame(&machine))?;
         let mut mechanism = assemble(machine, &values, primitives, frame, options)?;
@@ -66,7 +70,14 @@ fn assemble(
 ) -> Result<Mechanism, Error> {
     let boxes: Vec<Bounds> = primitives.iter().map(Bounds::of).collect();
     let models = machine.parts();
-    let solids: Vec<Solid<'_>> = models.iter().map(|p| solid(&primitives, &boxes, &p.csg)).collect();
+    let mut solids: Vec<Solid<'_>> = models.iter().map(|p| solid(&primitives, &boxes, &p.csg)).collect();
+    // Drawn parts have boundaries and no solids: their pairs are stated, or found in the plane.
+    for (solid, model) in solids.iter_mut().zip(models) {
+        let Some(walls) = &model.walls else { continue };
+        solid.laterals.clear();
+        solid.faces.clear();
+        solid.bounds = drawn_bounds(&primitives, walls).unwrap_or(solid.bounds);
+    }
     let size = solids.iter().fold(Bounds::EMPTY, |b, s| b.join(&s.bounds)).diagonal();
     if !size.is_finite() {
         let message = "the machine's size overflows; expected lengths below 1e150".to_string();
@@ -80,7 +91,15 @@ fn assemble(
     let label = |i: u32| machine.label_of_primitive(i);
 
     let gears = gear_data(&machine, values, &scene, &solids)?;
-    let shapes = Shapes { scene: &scene, solids: &solids, csgs: &csgs, leaves: &leaves, label: &label };
+    let shapes = Shapes {
+        scene: &scene,
+        solids: &solids,
+        csgs: &csgs,
+        leaves: &leaves,
+        label: &label,
+        models,
+        stated: machine.supplement(),
+    };
     let Found { mut pairs, misses, plane, closed_chains, mobility, warnings, rates } =
         analyse(&shapes, &gears, frame, size, options);
     let name = |i: usize| models[i].name.clone();
@@ -93,14 +112,20 @@ fn assemble(
     let around = shapes.parts(&holds, &pairs, plane.normal);
     let parts: Vec<Part> = (0..models.len())
         .map(|i| {
-            let Section { outline, recipe, note, tilted } = section(&around, i, &plane, &label, &mut budget);
+            let Section { outline, recipe, note, tilted } = match &models[i].walls {
+                Some(walls) => drawn_section(&primitives, walls, &plane),
+                None => section(&around, i, &plane, &label, &mut budget),
+            };
             Part {
                 name: name(i),
                 is_frame: i == frame,
                 csg: csgs[i].clone(),
                 bounds: solids[i].bounds,
                 size: solids[i].bounds.diagonal(),
-                symmetries: symmetries(&primitives, &leaves[i], scene.tolerance),
+                symmetries: match models[i].walls {
+                    Some(_) => vec![],
+                    None => symmetries(&primitives, &leaves[i], scene.tolerance),
+                },
                 joint: holds[i].map(|h| h.pair),
                 carrier: holds[i].map(|h| h.carrier),
                 inertia: None,
@@ -124,6 +149,7 @@ fn assemble(
         w.message = format!("{} and {}: {}", name(w.parts[0]), name(w.parts[1]), w.message);
     }
     warnings.extend(parts.iter().enumerate().filter_map(left_out));
+    find_surfaces(&mut pairs, &parts, scene.tolerance);
     let near_misses = misses.iter().map(|m| near_miss(m, &name)).collect();
     let numbers = values.as_slice();
     let parameters = machine.parameters().iter().zip(numbers).map(|(p, v)| (p.name.clone(), *v)).collect();
@@ -195,6 +221,31 @@ struct Section {
     recipe: Option<OutlineRecipe>,
     note: Option<String>,
     tilted: Option<u32>,
+}
+
+/// The box around a drawn part: arcs only as far as they go.
+fn drawn_bounds(primitives: &[Primitive], walls: &[WallLayer]) -> Option<Bounds> {
+    let plane = Rigid3::identity();
+    let outline = OutlineRecipe::of_walls(primitives, walls, &plane).ok()?.evaluate(primitives, &plane);
+    let (min, max) = outline.bounds()?;
+    let (first, last) = (outline.layers.first()?, outline.layers.last()?);
+    let low = Vec3::new(min.x, min.y, first.bottom);
+    Some(Bounds { low, high: Vec3::new(max.x, max.y, last.top) })
+}
+
+/// The section of a drawn part.
+fn drawn_section(primitives: &[Primitive], walls: &[WallLayer], plane: &WorkingPlane) -> Section {
+    let pose = &plane.plane_from_machine;
+    match OutlineRecipe::of_walls(primitives, walls, pose) {
+        Ok(recipe) => {
+            let outline = Some(recipe.evaluate(primitives, pose));
+            Section { outline, recipe: Some(recipe), ..Section::default() }
+        }
+        Err(_) => {
+            let note = "its boundary is drawn in another plane than the one the machine works in";
+            Section { note: Some(note.to_string()), ..Section::default() }
+        }
+    }
 }
 
 /// Primitives that are no prisms along the normal and out of everybody's reach are left out of the section.

@@ -114,7 +114,7 @@ fn drives(mechanism: &mut Mechanism) -> Result<(), Error> {
 
 impl Mechanism {
     /// Radians, or the file's length, per unit of the supplement for a part's joint.
-    pub(crate) fn unit(&self, part: usize) -> f64 {
+    pub fn unit(&self, part: usize) -> f64 {
         if self.slides(part) { 1.0 } else { std::f64::consts::PI / 180.0 }
     }
 

@@ -7,7 +7,9 @@ use super::mechanism::{Mechanism, Part, Warning};
 use super::near_miss::number;
 use super::pair::PairKind;
 use super::surface::off_line;
-use mainspring_geometry::{MASS_WORK, OutlineBudget, Vec3, mass_properties_within};
+use mainspring_geometry::{
+    MASS_WORK, OutlineBudget, Vec3, mass_properties_of_outline, mass_properties_within,
+};
 use mainspring_model::{Error, MassData, PartModel, Values};
 
 /// Mass, centre of mass and moment of inertia about it, as far as they are known.
@@ -94,10 +96,18 @@ fn shape(
     let machine = &mechanism.machine;
     let Some(density) = machine.density(model, values)? else { return Ok(None) };
     let Some(joint) = mechanism.parts[i].joint.filter(|_| needs_shape(mechanism, i)) else { return Ok(None) };
-    let found =
-        budget.half(|b| mass_properties_within(&mechanism.primitives, &model.csg, work, b)).map_err(|e| {
+    let solid = |budget: &mut OutlineBudget| {
+        budget.half(|b| mass_properties_within(&mechanism.primitives, &model.csg, work, b))
+    };
+    let found = match &mechanism.parts[i].recipe {
+        Some(recipe) if model.walls.is_some() => {
+            let plane = &mechanism.plane.plane_from_machine;
+            mass_properties_of_outline(recipe, &mechanism.primitives, plane)
+        }
+        _ => solid(budget).map_err(|e| {
             machine.error(model.place, format!("no inertia of {}: {e}; expected a solid", model.name))
-        })?;
+        })?,
+    };
     let axis = mechanism.pairs[joint].axis;
     Ok(Some(ShapeMass {
         mass: density * found.volume,

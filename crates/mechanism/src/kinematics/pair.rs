@@ -79,6 +79,8 @@ pub enum EvidenceKind {
     EndFaces { normal: Vec3, area: f64 },
     /// The surfaces leave a way out in this direction, across the axis.
     OpenSide { exit: Vec3 },
+    /// Stated in the machine's file, whatever the shapes say.
+    Stated,
     /// Gear envelopes in mesh: how deep they overlap.
     Mesh { overlap: f64, internal: bool },
 }

@@ -8,7 +8,7 @@ use super::neighbours::neighbours;
 use super::pair::{EvidenceKind, Pair, PairKind};
 use super::start::{Envelopes, Extent, Start};
 use super::work::Work;
-use mainspring_geometry::{OutlineBudget, Primitive, Rigid3, Vec3};
+use mainspring_geometry::{OutlineBudget, OutlineError, Primitive, Rigid3, Vec3};
 use mainspring_model::Error;
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -76,6 +76,14 @@ impl Mechanism {
         let mut unchecked = Vec::new();
         let touching = neighbours(&bounds, MAX_NEIGHBOURS);
         for (i, j) in touching.pairs {
+            if self.is_drawn(i) || self.is_drawn(j) {
+                match self.flat_clash([i, j], &primitives) {
+                    Ok(None) => {}
+                    Ok(Some(point)) => return Err(self.clash_error(i, j, point)),
+                    Err(_) => unchecked.push((i, j)),
+                }
+                continue;
+            }
             let meshes = meshes.get(&(i, j)).map_or(&[][..], |m| m);
             if let Some(clash) = start.clash([&extents[i], &extents[j]], meshes) {
                 return Err(self.clash_error(i, j, clash.point));
@@ -90,6 +98,25 @@ impl Mechanism {
             Warning { place: None, parts: vec![], message }
         });
         Ok(self.unchecked(&unchecked).or(crowded))
+    }
+
+    fn is_drawn(&self, part: usize) -> bool {
+        self.machine.parts()[part].walls.is_some()
+    }
+
+    /// Where two parts, one of them drawn, overlap in the plane. Gears in mesh and parts without outline are left out.
+    fn flat_clash(&self, parts: [usize; 2], primitives: &[Primitive]) -> Result<Option<Vec3>, OutlineError> {
+        let gears = |p: &Pair| p.kind == PairKind::Gear && [p.parts.0, p.parts.1] == parts;
+        let recipes = parts.map(|i| self.parts[i].recipe.as_ref());
+        let [Some(a), Some(b)] = recipes else { return Ok(None) };
+        if self.pairs.iter().any(gears) {
+            return Ok(None);
+        }
+        let plane = &self.plane.plane_from_machine;
+        let size = self.parts[parts[0]].size.max(self.parts[parts[1]].size);
+        let placed = [a, b].map(|r| r.evaluate(primitives, plane));
+        let found = placed[0].overlap(&placed[1], 1e-9 * size)?;
+        Ok(found.map(|(p, height)| plane.inverse().apply(Vec3::new(p.x, p.y, height))))
     }
 
     fn unchecked(&self, pairs: &[(usize, usize)]) -> Option<Warning> {

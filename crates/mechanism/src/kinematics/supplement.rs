@@ -53,7 +53,7 @@ fn pair_data(mechanism: &mut Mechanism, data: &PairData) -> Result<(), Error> {
     mechanism.parts[data.part].place = data.place;
     let part = &mechanism.parts[data.part];
     let hangs = |c: usize| mechanism.mover(c) == mechanism.mover(data.other);
-    let here = part.carrier.is_none_or(|c| c == data.other);
+    let here = data.other == data.part || part.carrier.is_none_or(|c| c == data.other);
     if let Some(carrier) = part.carrier.filter(|c| !here && !hangs(*c)) {
         let (name, other) = (&part.name, &mechanism.parts[data.other].name);
         let is_pair =

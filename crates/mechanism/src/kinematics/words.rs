@@ -45,6 +45,7 @@ fn text(evidence: &Evidence, names: &[String; 2], label: impl Fn(u32) -> String)
                 n(exit.z)
             )
         }
+        EvidenceKind::Stated => format!("stated for {} and {}", names[0], names[1]),
         EvidenceKind::Mesh { overlap, internal } => {
             let how = if internal { "internal" } else { "external" };
             format!("{how} mesh of {} and {}: envelopes overlap by {}", of(0), of(1), n(overlap))
