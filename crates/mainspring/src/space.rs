@@ -99,16 +99,21 @@ fn held_of(
     values.iter().filter_map(of).collect()
 }
 
-/// Stops of the two joints as marks.
+/// Named values the machine's text gives to the two joints, and their stops.
 fn marks(mechanism: &Mechanism, axes: &[SpaceAxis; 2]) -> Vec<SpaceMark> {
-    let of = |axis: usize| {
+    let named = mechanism.machine.supplement().marks.iter().filter_map(|mark| {
+        let (c, ratio) = mechanism.subsystem_of(mark.part)?;
+        let axis = axes.iter().position(|a| a.coordinate == c)?;
+        let value = mark.value * mechanism.unit(mark.part) / ratio * axes[axis].ratio;
+        Some(SpaceMark { axis, name: mark.name.clone(), value })
+    });
+    let stops = (0..2).flat_map(|axis| {
         let stops = mechanism.parts[axes[axis].part].forces.stops;
-        let named = [("lower stop", stops[0]), ("upper stop", stops[1])];
-        named.into_iter().filter_map(move |(name, value)| {
+        [("lower stop", stops[0]), ("upper stop", stops[1])].into_iter().filter_map(move |(name, value)| {
             value.map(|value| SpaceMark { axis, name: name.to_string(), value })
         })
-    };
-    (0..2).flat_map(of).collect()
+    });
+    named.chain(stops).collect()
 }
 
 fn moves(mechanism: &Mechanism, axes: &[SpaceAxis; 2]) -> Vec<(String, usize, f64)> {
