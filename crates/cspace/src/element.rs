@@ -96,7 +96,7 @@ pub(crate) fn elements(
             let Some(v) = av.place(roots.root(branch), 0.0) else { continue };
             let poses = [m[0].place(middle), m[1].place(v)];
             if eq.margin(&poses, frame.size) >= -MARGIN {
-                graph(&Graph { pair, eq, frame, branch, folds: &scratch.folds }, a, b, out, 4);
+                graph(&Graph { pair, eq, frame, branch, folds: &scratch.folds }, [a, b], v, out, 4);
             }
         }
     }
@@ -135,10 +135,22 @@ struct Graph<'a> {
 }
 
 impl Graph<'_> {
-    /// v at an end. At a fold the two roots are one; found as two they would have half the digits.
-    fn end(&self, u: f64, within: f64) -> Option<f64> {
+    /// Follows v from the middle to another position; counted on through whole turns.
+    fn follow(&self, from: f64, v: f64, to: f64) -> f64 {
         let axis = &self.frame.axes[1];
-        let near = axis.place(self.eq.solve_v(&self.frame.moving, within).root(self.branch), 1e-9)?;
+        if !axis.turns {
+            return v;
+        }
+        [0.6, 0.95].into_iter().fold(v, |v, part| {
+            let roots = self.eq.solve_v(&self.frame.moving, from + part * (to - from));
+            axis.nearest(roots.root(self.branch), v)
+        })
+    }
+
+    /// v at an end, where `near` is v close by. At a fold the two roots are one; found as two they would have half the
+    /// digits.
+    fn end(&self, u: f64, near: f64) -> f64 {
+        let axis = &self.frame.axes[1];
         let roots = self.eq.solve_v(&self.frame.moving, u);
         let at_fold = !roots.single && self.folds.iter().any(|f| (f - u).abs() <= LEAST);
         let beyond = axis.turns && roots.delta > 0.5 * PI;
@@ -147,18 +159,24 @@ impl Graph<'_> {
             (true, true) => roots.base + PI,
             _ => roots.root(self.branch),
         };
-        Some(axis.nearest(v, near).clamp(axis.start, axis.end()))
+        let v = axis.nearest(v, near);
+        // Without a root (a body on its own axis) what is close by is as good.
+        (if v.is_finite() { v } else { near }).clamp(axis.start, axis.end())
     }
 }
 
-/// Adds one stretch; wide ones in halves, so that which turn v belongs to is never in doubt.
-fn graph(g: &Graph, a: f64, b: f64, out: &mut Vec<Element>, halvings: u32) {
-    let inner = 1e-3 * (b - a);
-    let (Some(va), Some(vb)) = (g.end(a, a + inner), g.end(b, b - inner)) else { return };
+/// Adds one stretch, of which v in the middle is known; wide ones in halves, so that which turn v belongs to is never in
+/// doubt.
+fn graph(g: &Graph, [a, b]: [f64; 2], v: f64, out: &mut Vec<Element>, halvings: u32) {
+    let middle = 0.5 * (a + b);
+    let [va, vb] = [a, b].map(|u| g.end(u, g.follow(middle, v, u)));
     if (va - vb).abs() > 3.0 && g.frame.axes[1].turns && halvings > 0 {
-        let middle = 0.5 * (a + b);
-        graph(g, a, middle, out, halvings - 1);
-        graph(g, middle, b, out, halvings - 1);
+        for part in [[a, middle], [middle, b]] {
+            let inner = 0.5 * (part[0] + part[1]);
+            let there = g.frame.axes[1]
+                .nearest(g.eq.solve_v(&g.frame.moving, inner).root(g.branch), g.follow(middle, v, inner));
+            graph(g, part, there, out, halvings - 1);
+        }
         return;
     }
     out.push(Element { pair: g.pair, branch: g.branch, u: [a, b], v: [va, vb] });

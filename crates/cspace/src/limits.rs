@@ -147,10 +147,10 @@ pub(crate) fn extremes(eq: &Equation, moving: &[Moving; 2], out: &mut Vec<f64>) 
     folds(&eq, &swapped, &mut steep);
     for v in steep {
         let roots = eq.solve_v(&swapped, v);
-        if roots.reach {
-            // The two roots have met, on this side of a turn's centre or on the other.
-            let beyond = moving[0].turns() && roots.delta > 0.5 * PI;
-            out.push(if beyond { roots.base + PI } else { roots.base });
+        // Rounding may put the two roots that have met just out of reach: a critical position too many does no harm.
+        out.extend([roots.base].into_iter().filter(|u| u.is_finite()));
+        if moving[0].turns() {
+            out.push(roots.base + PI);
         }
     }
 }

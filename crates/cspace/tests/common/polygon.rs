@@ -2,8 +2,8 @@
 //!
 //! A part lies between an inner and an outer polygon whose arcs run on either side of the true ones. Winding numbers make
 //! that certain even where such polylines cross: each lens between an arc and its polyline takes one off, or adds one. If
-//! the inner ones overlap so do the parts; if the outer ones do not, neither do the parts; else the arcs are cut finer. The
-//! finest polygons decide, off by at most `FINEST`.
+//! the inner ones overlap so do the parts; if the outer ones do not, neither do the parts; else the arcs are cut finer. What
+//! the finest polygons leave open is nearer to a contact than 4e-7.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::ShapeType;
@@ -16,7 +16,6 @@ use mainspring_mechanism::{Body, Pose};
 
 /// Greatest distance of polylines from their arcs (lengths; parts have size 1), level by level.
 const LEVELS: [f64; 4] = [3e-3, 1e-4, 4e-6, 1e-7];
-pub const FINEST: f64 = 1e-7;
 
 type Contour = Vec<[f64; 2]>;
 
@@ -110,30 +109,36 @@ fn intersect(a: &[Contour], b: &[Contour], reach: f64) -> bool {
     overlay.interiors_intersect()
 }
 
-/// Do two bodies overlap at joint positions `q`?
-pub fn overlap(a: (&Body, &Polygons), b: (&Body, &Polygons), q: &[f64]) -> bool {
+/// Do two bodies overlap at joint positions `q`? None: they are nearer to a contact than the finest polygons tell.
+pub fn overlap(a: (&Body, &Polygons), b: (&Body, &Polygons), q: &[f64]) -> Option<bool> {
     let (pa, pb) = (a.0.pose(q), b.0.pose(q));
     // In the second body's coordinates.
     let back = Pose { cos: pb.cos, sin: -pb.sin, shift: Vec2::default() };
     let rel = Pose { shift: -back.rotate(pb.shift), ..back }.then_after(&pa);
     let reach = (a.1.radius + rel.shift.norm()).max(b.1.radius) + 1e-2;
-    a.1.layers.iter().any(|l| {
-        b.1.layers.iter().any(|m| {
+    let mut worst = Some(false);
+    for l in &a.1.layers {
+        for m in &b.1.layers {
             let common = l.heights.1.min(m.heights.1) - l.heights.0.max(m.heights.0);
-            common > 1e-9 && layers_overlap(l, m, &rel, reach)
-        })
-    })
-}
-
-fn layers_overlap(l: &Levels, m: &Levels, rel: &Pose, reach: f64) -> bool {
-    for (x, y) in l.polygons.iter().zip(&m.polygons) {
-        if !intersect(&place(&x[1], rel), &y[1], reach) {
-            return false;
-        }
-        if intersect(&place(&x[0], rel), &y[0], reach) {
-            return true;
+            match layers_overlap(l, m, &rel, reach) {
+                _ if common <= 1e-9 => {}
+                Some(true) => return Some(true),
+                Some(false) => {}
+                None => worst = None,
+            }
         }
     }
-    // Nearer than the finest polygons tell.
-    true
+    worst
+}
+
+fn layers_overlap(l: &Levels, m: &Levels, rel: &Pose, reach: f64) -> Option<bool> {
+    for (x, y) in l.polygons.iter().zip(&m.polygons) {
+        if !intersect(&place(&x[1], rel), &y[1], reach) {
+            return Some(false);
+        }
+        if intersect(&place(&x[0], rel), &y[0], reach) {
+            return Some(true);
+        }
+    }
+    None
 }
