@@ -220,7 +220,7 @@ def test_a_detent_is_lifted_out_of_its_notch():
 
 
 def test_involute_gears_keep_their_ratio():
-    """Flanks of six arcs keep the involute's constant ratio to a thousandth, corners to three; teeth are counted."""
+    """Flanks of six arcs keep the ratio of involutes to a thousandth, corners to three; teeth are counted."""
     space, known = space_of("involute-gears", "pinion", "wheel")
     ratio = -known["z1"] / known["z2"]
     assert len(space.curves) == 30

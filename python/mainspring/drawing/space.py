@@ -40,6 +40,7 @@ _TALLEST, _LOWEST = 640.0, 260.0
 _FLAT = 430.0
 _CROP = 0.8
 _MOST_TILES = 4096
+_MOST_BORDERS = 16  # more would hide the map behind lines
 
 
 @dataclass(frozen=True)
@@ -165,7 +166,7 @@ def _borders(data: Data, shown: Plot) -> str:
     drawn = []
     for k, side in enumerate((shown.x, shown.y)):
         axis = data["domain"][k]
-        for offset in side.offsets if axis["repeats"] > 1 else ():
+        for offset in side.offsets if 1 < axis["repeats"] <= _MOST_BORDERS else ():
             edge = axis["low"] + offset
             if not side.low < edge < side.high:
                 continue
@@ -216,9 +217,10 @@ def _marks(data: Data, shown: Plot) -> str:
     for mark in data["marks"]:
         upright = mark["coordinate"] == shown.x.name
         side = shown.x if upright else shown.y
-        if not side.low <= mark["value"] <= side.high:
+        value = _seen(mark["value"], side)
+        if value is None:
             continue
-        x, y = shown.at((mark["value"], shown.y.high) if upright else (shown.x.low, mark["value"]))
+        x, y = shown.at((value, shown.y.high) if upright else (shown.x.low, value))
         d = (
             f"M{_text(x)} {_text(top)}v{_text(tall)}"
             if upright
@@ -236,6 +238,13 @@ def _marks(data: Data, shown: Plot) -> str:
             f'<circle class="cs-start" cx="{_text(x)}" cy="{_text(y)}" r="4"><title>start</title></circle>'
         )
     return "".join(drawn)
+
+
+def _seen(value: float, side: Side) -> float | None:
+    """Return where in the range shown a value lies, for a turning part in whichever turn; None outside."""
+    turns = range(-2, 3) if side.turns else (0,)
+    values = (value + 2 * math.pi * k for k in turns)
+    return next((v for v in values if side.low <= v <= side.high), None)
 
 
 def said(data: Data) -> str:
