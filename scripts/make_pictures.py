@@ -1,4 +1,4 @@
-"""Draw the pictures of README, documentation and examples: shipped machines, their spaces, and the motion of one."""
+"""Draw the pictures of README, documentation and examples: machines, their spaces, the motion of one."""
 
 import math
 from pathlib import Path

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from mainspring.report import ticks
+from mainspring.drawing import ticks
 
 
 @pytest.mark.parametrize("span", [1e-9, 1e-3, 0.7, 12.0, 4000.0, 1e9])
