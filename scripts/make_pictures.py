@@ -17,7 +17,8 @@ def machine_picture(model: Path) -> str:
 
 def main() -> None:
     """Write NAME.svg beside every model, and the two pictures of the README."""
-    for model in sorted((ROOT / "examples").glob("*/*.padl")):
+    models = [p for ending in ("padl", "toml") for p in (ROOT / "examples").glob(f"*/*.{ending}")]
+    for model in sorted(p for p in models if p.stem == p.parent.name):
         model.with_suffix(".svg").write_text(machine_picture(model), encoding="utf-8")
     escapement = ROOT / "examples" / "escapement" / "escapement.padl"
     mechanism = ms.load(escapement).compile()
