@@ -50,7 +50,8 @@ def space_picture(model: Path) -> str:
 
 def main() -> None:
     """Write NAME.svg and NAME-space.svg beside every model, and the pictures of the README."""
-    for model in sorted((ROOT / "examples").glob("*/*.padl")):
+    models = [p for ending in ("padl", "toml") for p in (ROOT / "examples").glob(f"*/*.{ending}")]
+    for model in sorted(p for p in models if p.stem == p.parent.name):
         model.with_suffix(".svg").write_text(machine_picture(model), encoding="utf-8")
     for model in sorted((ROOT / "examples").glob("*/*.*")):
         if model.suffix in (".padl", ".toml") and model.stem in SPACES:
