@@ -1,9 +1,11 @@
-//! What ends a step before its time: a tip that parts, the clamp that begins or ends, another pair that takes over.
+//! What ends a step before its time: a tip that parts, the clamp that begins or ends, another pair that takes over, dry
+//! friction that no longer holds.
 //!
 //! All are found on the dense output, at the nodes of a Lobatto rule, where the power lost is sampled as well.
 
-use super::group::{Group, TipState};
+use super::group::Group;
 use super::stretch::Stretch;
+use super::tip::TipState;
 use crate::root::narrow;
 use mainspring_mechanism::{Overlaps, Successor, is_on};
 
@@ -18,6 +20,8 @@ pub enum Change {
     Hand(usize, Successor),
     /// The contact point ran off a feature that ends in a convex corner, and no other pair takes over.
     RanOff(usize),
+    /// What dry friction has to hold passes its size; the coordinate goes in the direction ±1.
+    Gives(usize, f64),
 }
 
 /// A change and when: as a fraction of the step, just past it.
@@ -82,7 +86,27 @@ impl Search<'_, '_> {
                 first = Some(found);
             }
         }
+        if let Some(found) = self.first_to_give((before, x))
+            && first.is_none_or(|f| found.x < f.x)
+        {
+            first = Some(found);
+        }
         first
+    }
+
+    /// The first coordinate that dry friction cannot hold between two samples.
+    fn first_to_give(&mut self, between: (f64, f64)) -> Option<Found> {
+        let stuck = self.group.stuck.clone();
+        if stuck.is_empty() {
+            return None;
+        }
+        self.stretch.move_to(self.group, between.1);
+        let needed = self.group.holding(&stuck);
+        let sizes = &self.group.system.forces.coulomb;
+        let over = stuck.iter().zip(needed).filter(|&(&i, force)| force.abs() > sizes[i]);
+        let changes: Vec<Change> = over.map(|(&i, force)| Change::Gives(i, -force.signum())).collect();
+        let found = changes.into_iter().map(|change| self.found(change, between));
+        found.min_by(|a, b| a.x.total_cmp(&b.x))
     }
 
     /// The first change of tip `k` between two samples, at the second of which its state is given.
@@ -112,6 +136,9 @@ impl Search<'_, '_> {
     /// Whether another pair takes over. Where the contact point leaves its features a pair has to: it is looked for
     /// there, since later it may have parted.
     fn hand_over(&mut self, k: usize, state: &TipState, between: (f64, f64)) -> Option<Found> {
+        if self.group.tips[k].stop().is_some() {
+            return None;
+        }
         if is_on(&state.gap) || self.margin(k, between.0) < 0.0 {
             self.stretch.move_to(self.group, between.1);
             return self.handed(k, state, between);
@@ -170,6 +197,10 @@ impl Search<'_, '_> {
                 if is_on(&other) { own.gap - other.gap } else { own.gap.abs() }
             }
             Change::Hand(..) => unreachable!("found where the pair runs off"),
+            Change::Gives(i, direction) => {
+                let needed = self.group.holding(&[i])[0];
+                self.group.system.forces.coulomb[i] + direction * needed
+            }
             Change::RanOff(k) => {
                 let gap = self.group.state(k).gap;
                 gap.edge_margin.min(gap.cone_margin * self.group.system.size)
@@ -183,7 +214,7 @@ impl Search<'_, '_> {
         let at = |s: &mut Self, x: f64| (t0 + x * h, s.value(&change, x));
         let mut good = at(self, before);
         // A tip just made begins at no depth: from there it first has to be seen open.
-        if good.1 <= 0.0 {
+        if good.1 <= 0.0 && !matches!(change, Change::Gives(..)) {
             let Some((x, value)) = self.positive_between(&change, before, seen) else { return before };
             good = (t0 + x * h, value);
         }
