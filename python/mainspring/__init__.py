@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from mainspring._core import InputError as InputError
+    from mainspring.comparison import Comparison as Comparison
     from mainspring.machine import Machine as Machine
     from mainspring.machine import Mechanism as Mechanism
     from mainspring.machine import Parameter as Parameter
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOME = {
+    "Comparison": "comparison",
     "InputError": "_core",
     "Machine": "machine",
     "Mechanism": "machine",
@@ -55,6 +57,7 @@ _HOME = {
 }
 
 __all__ = [
+    "Comparison",
     "Energy",
     "Event",
     "Hypothesis",

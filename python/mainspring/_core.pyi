@@ -9,13 +9,28 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["InputError", "Machine", "Mechanism", "Prediction", "Run", "load"]
+__all__ = [
+    "InputError",
+    "Machine",
+    "Mechanism",
+    "Prediction",
+    "Run",
+    "compare_predictions",
+    "compare_runs",
+    "load",
+]
 
 class InputError(ValueError):
     """Bad input. `str(e)` is the whole line `FILE:LINE:COL: error: what, what was expected`."""
 
 def load(model: str, supplement: str | None = None) -> Machine:
     """Read a model file and its supplement (found beside the model by name when None)."""
+
+def compare_runs(rigid: Run, compliant: Run, timing: bool) -> str:
+    """Return the object that `simulate --contact both --json` prints."""
+
+def compare_predictions(rigid: Prediction, compliant: Prediction) -> str:
+    """Return the object that `predict --contact both --json` prints."""
 
 @final
 class Machine:
@@ -56,15 +71,17 @@ class Mechanism:
         until: float,
         *,
         contact: str = "rigid",
-        rtol: float = 1e-8,
+        contact_constants: tuple[float, float, float] | None = None,
+        rtol: float | None = None,
         positions: list[tuple[str, float]] = ...,
         velocities: list[tuple[str, float]] = ...,
         forces: bool = False,
         max_steps: int | None = None,
         progress: Callable[[float], bool] | None = None,
     ) -> Run:
-        """Run to time `until`.
+        """Run to time `until`, with `rigid` or `compliant` contact.
 
+        `contact_constants` are E, D, M; None: the supplement's. `rtol` None: the model's own.
         `progress(t)` is called now and then (about every hundred events), never inside a step; returning
         False stops the run with status `stopped` and everything up to then.
         """
@@ -73,7 +90,8 @@ class Mechanism:
         self,
         *,
         contact: str = "rigid",
-        rtol: float = 1e-8,
+        contact_constants: tuple[float, float, float] | None = None,
+        rtol: float | None = None,
         positions: list[tuple[str, float]] = ...,
         velocities: list[tuple[str, float]] = ...,
         p_confirm: int = 2,

@@ -1,4 +1,4 @@
-//! Rigid contact and motion: impacts, contact modes as explicit state, event location, trajectories, energy.
+//! Rigid and compliant contact, and motion: impacts, contact modes as explicit state, event location, trajectories, energy.
 //!
 //! Gelsey 1995, Appendix A (the *global* model), with contacts as projections onto `G q̇ ≥ 0` in place of the
 //! elimination of coordinates.
@@ -12,6 +12,7 @@ mod component;
 mod contact;
 mod descent;
 mod energy;
+mod engine;
 mod events;
 mod flight;
 mod halts;
@@ -39,6 +40,7 @@ mod world;
 pub use compliant::{Compliant, compliant_forces_at};
 pub use contact::Contact;
 pub use energy::{Energy, kinetic, potential};
+pub use engine::{Engine, start};
 pub use events::{Event, EventKind};
 pub use flight::{Bounds, Flight, State};
 pub use minima::{Minimum, MinimumFinder};
