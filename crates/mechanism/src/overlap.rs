@@ -107,6 +107,36 @@ impl<'a> Overlaps<'a> {
         next.map(|(candidate, state)| Successor { candidate, state, less: false })
     }
 
+    /// The pair that follows along the boundary where the contact point has already left the features of `c`, whatever
+    /// its gap: the one whose gap is nearest.
+    pub fn follower(
+        &self,
+        c: &Candidate,
+        state: &GapState,
+        poses: (&Pose, &Pose),
+        pairs: &mut Vec<(u32, u32)>,
+    ) -> Option<(Candidate, GapState)> {
+        let pair = self.pair(c.id.interaction, poses);
+        let ids = (c.id.first, c.id.second);
+        pairs.clear();
+        pair.next_along(ids, pairs);
+        let evaluated = pairs.iter().filter_map(|&ids| pair.evaluate(ids)).filter(|(_, s)| is_on(s));
+        let apart = |s: &GapState| (s.gap - state.gap).abs();
+        evaluated.min_by(|a, b| apart(&a.1).total_cmp(&apart(&b.1)))
+    }
+
+    /// Are two contacts one place on neighbouring features: the same feature on one side, features that follow each
+    /// other on the other? Such hand over to each other and never count both.
+    pub fn follow(&self, a: &ContactId, b: &ContactId) -> bool {
+        if a.interaction != b.interaction {
+            return false;
+        }
+        let bodies = self.system.interactions[a.interaction as usize].bodies;
+        let next = |body: usize, i: u32, j: u32| self.boundaries[body].neighbours(i).contains(&j);
+        (a.first == b.first && next(bodies.1, a.second, b.second))
+            || (a.second == b.second && next(bodies.0, a.first, b.first))
+    }
+
     /// Whether the end of the edge that the contact point is nearer to is a convex corner, where the edge's plane
     /// bounds the part no further.
     pub fn ends_sharply(&self, c: &Candidate, state: &GapState) -> bool {

@@ -141,7 +141,7 @@ impl Search<'_, '_> {
         }
         if is_on(&state.gap) || self.margin(k, between.0) < 0.0 {
             self.stretch.move_to(self.group, between.1);
-            return self.handed(k, state, between);
+            return self.handed(k, state, between).or_else(|| self.followed(k, state, between.1));
         }
         let off = self.locate(Change::RanOff(k), between);
         self.stretch.move_to(self.group, off);
@@ -163,6 +163,20 @@ impl Search<'_, '_> {
         let state = self.group.state(k);
         let next = self.successor(k, &state).unwrap_or(next);
         Some(Found { x, change: Change::Hand(k, next) })
+    }
+
+    /// The contact point had left its features before the step: what follows along the boundary takes over.
+    fn followed(&mut self, k: usize, state: &TipState, x: f64) -> Option<Found> {
+        if is_on(&state.gap) {
+            return None;
+        }
+        let tip = self.group.tips[k];
+        let (a, b) = self.group.sides(&tip);
+        let poses = (&a.pose, &b.pose);
+        let (candidate, state) = self.overlaps.follower(&tip.candidate, &state.gap, poses, self.pairs)?;
+        let next = Successor { candidate, state, less: false };
+        let change = if state.gap < 0.0 { Change::Hand(k, next) } else { Change::RanOff(k) };
+        Some(Found { x, change })
     }
 
     fn margin(&mut self, k: usize, x: f64) -> f64 {

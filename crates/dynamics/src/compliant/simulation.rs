@@ -260,8 +260,9 @@ impl<'a> Compliant<'a> {
                 return is_standing(world, touch, q, v, speeds);
             }
             let id = touch.candidate.id;
-            let second = || tips.iter().any(|tip| overlaps.adjoin(&tip.candidate.id, &id));
-            state.edge_margin >= 0.0 && state.cone_margin >= -FLUSH && second()
+            let adjoins = tips.iter().any(|tip| overlaps.adjoin(&tip.candidate.id, &id));
+            let follows = || tips.iter().any(|tip| overlaps.follow(&tip.candidate.id, &id));
+            state.edge_margin >= 0.0 && state.cone_margin >= -FLUSH && adjoins && !follows()
         };
         let found = first_closing(&mut self.world, &stretch, &watched, &mut real);
         let mut next = found.closing.map_or(Next::Nothing, |c| Next::Close(c.candidate));
@@ -330,7 +331,7 @@ impl<'a> Compliant<'a> {
         let mut giving = None;
         match change {
             Change::Clamp(k) => self.group.tips[k].clamped ^= true,
-            Change::Hand(k, next) => self.group.tips[k].candidate = next.candidate,
+            Change::Hand(k, next) => self.hand(k, next.candidate),
             Change::Gives(i, direction) => giving = Some((i, direction)),
             Change::Part(k) | Change::RanOff(k) => {
                 let candidate = self.group.tips[k].candidate;
@@ -344,6 +345,19 @@ impl<'a> Compliant<'a> {
             }
         }
         self.settle(giving);
+    }
+
+    /// Another pair of features takes over at tip `k`; where it is a tip already the two become one. What they store
+    /// less is lost.
+    fn hand(&mut self, k: usize, next: Candidate) {
+        self.place_group();
+        let before = self.group.stored();
+        if self.group.tips.iter().any(|tip| tip.candidate.id == next.id) {
+            self.group.tips.remove(k);
+        } else {
+            self.group.tips[k].candidate = next;
+        }
+        self.record.energy.impacts += before - self.group.stored();
     }
 
     /// What a tip stores is lost when it runs off.
