@@ -29,6 +29,9 @@ const REACH: f64 = 8.0;
 /// Overlaps that a smooth joint hands on agree to this fraction.
 const EQUAL: f64 = 1e-6;
 
+/// Where one feature ends and the next begins both may be missed by rounding: by so much of the size, or radians.
+const ROUNDING: f64 = 1e-9;
+
 /// What is needed to follow overlaps: the boundaries of all bodies.
 #[derive(Clone, Debug)]
 pub struct Overlaps<'a> {
@@ -120,7 +123,8 @@ impl<'a> Overlaps<'a> {
         let ids = (c.id.first, c.id.second);
         pairs.clear();
         pair.next_along(ids, pairs);
-        let evaluated = pairs.iter().filter_map(|&ids| pair.evaluate(ids)).filter(|(_, s)| is_on(s));
+        let on = |s: &GapState| s.edge_margin >= -ROUNDING * self.system.size && s.cone_margin >= -ROUNDING;
+        let evaluated = pairs.iter().filter_map(|&ids| pair.evaluate(ids)).filter(|(_, s)| on(s));
         let apart = |s: &GapState| (s.gap - state.gap).abs();
         evaluated.min_by(|a, b| apart(&a.1).total_cmp(&apart(&b.1)))
     }

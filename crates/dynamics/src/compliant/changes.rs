@@ -35,6 +35,12 @@ pub struct Found {
 pub const NODES: [f64; 3] = [0.276_393_202_250_021, 0.723_606_797_749_979, 1.0];
 const WEIGHTS: [f64; 4] = [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0];
 
+/// A contact point has run off once it is this far past the end of its feature, relative to the machine's size: on neither
+/// side of the end by rounding.
+const PAST_END: f64 = 1e-13;
+/// Depths of features that follow each other smoothly agree to this fraction where one is just left.
+const EQUAL: f64 = 1e-3;
+
 /// Looks for changes over one step.
 pub struct Search<'s, 'a> {
     pub group: &'s mut Group<'a>,
@@ -141,12 +147,13 @@ impl Search<'_, '_> {
         }
         if is_on(&state.gap) || self.margin(k, between.0) < 0.0 {
             self.stretch.move_to(self.group, between.1);
-            return self.handed(k, state, between).or_else(|| self.followed(k, state, between.1));
+            return self.handed(k, state, between).or_else(|| self.followed(k, state, between.1, f64::INFINITY));
         }
         let off = self.locate(Change::RanOff(k), between);
         self.stretch.move_to(self.group, off);
         let state = self.group.state(k);
-        let found = self.handed(k, &state, (between.0, off));
+        let found =
+            self.handed(k, &state, (between.0, off)).or_else(|| self.followed(k, &state, off, EQUAL));
         let tip = self.group.tips[k];
         let sharp = state.gap.edge_margin < 0.0 && self.overlaps.ends_sharply(&tip.candidate, &state.gap);
         found.or_else(|| sharp.then_some(Found { x: off, change: Change::RanOff(k) }))
@@ -165,15 +172,20 @@ impl Search<'_, '_> {
         Some(Found { x, change: Change::Hand(k, next) })
     }
 
-    /// The contact point had left its features before the step: what follows along the boundary takes over.
-    fn followed(&mut self, k: usize, state: &TipState, x: f64) -> Option<Found> {
+    /// The contact point has left its features: what follows along the boundary takes over, if its depth differs by no
+    /// more than a fraction `apart`.
+    fn followed(&mut self, k: usize, state: &TipState, x: f64, apart: f64) -> Option<Found> {
         if is_on(&state.gap) {
             return None;
         }
+        let depth = state.depth;
         let tip = self.group.tips[k];
         let (a, b) = self.group.sides(&tip);
         let poses = (&a.pose, &b.pose);
         let (candidate, state) = self.overlaps.follower(&tip.candidate, &state.gap, poses, self.pairs)?;
+        if (state.gap + depth).abs() > apart * depth {
+            return None;
+        }
         let next = Successor { candidate, state, less: false };
         let change = if state.gap < 0.0 { Change::Hand(k, next) } else { Change::RanOff(k) };
         Some(Found { x, change })
@@ -217,7 +229,8 @@ impl Search<'_, '_> {
             }
             Change::RanOff(k) => {
                 let gap = self.group.state(k).gap;
-                gap.edge_margin.min(gap.cone_margin * self.group.system.size)
+                let size = self.group.system.size;
+                gap.edge_margin.min(gap.cone_margin * size) + PAST_END * size
             }
         }
     }
