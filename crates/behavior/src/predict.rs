@@ -65,6 +65,9 @@ pub struct Prediction {
 /// Depth of a prominent minimum as a fraction of the greatest kinetic energy.
 const PROMINENCE: f64 = 0.01;
 
+/// How many floors a coordinate must range for changes to tell anything.
+const CLEARLY: f64 = 10.0;
+
 /// Predicts what the machine will do from its state at t = 0. `progress` is told the time and may answer false.
 pub fn predict(
     system: &System,
@@ -176,12 +179,7 @@ impl<'o> Follower<'o> {
         *run.track() = Some(Track { ranges: Ranges::empty(self.names.len()), ..track });
         // Tested before any fallback: energy that never changes gives nothing to go by.
         let quiet = self.series[0].points.is_empty() && self.series[1].points.is_empty();
-        if outcome.is_none()
-            && quiet
-            && t >= self.tables_end
-            && t >= 2.0 * looks
-            && self.is_constant(run)
-        {
+        if outcome.is_none() && quiet && t >= self.tables_end && t >= 2.0 * looks && self.is_constant(run) {
             return Some(Outcome::NoPattern(NoPattern::ConstantKineticEnergy));
         }
         let most = self.options.max_minima;
@@ -253,6 +251,9 @@ impl<'o> Follower<'o> {
         let floors = self.floors(run);
         let point = Point { t, q, v, ranges };
         let pattern = self.series[k].add(point, &self.names, &floors, &self.options.matching)?;
+        if !self.moves(k, &pattern, &floors) {
+            return None;
+        }
         // A series counts only where those before it have nothing to say.
         let earlier = self.series[..k].iter().flat_map(|s| &s.points);
         if earlier.filter(|p| p.t >= pattern.since).count() > 0 {
@@ -264,6 +265,15 @@ impl<'o> Follower<'o> {
         }
         let start = self.series[k].points[pattern.start].clone();
         Some(Outcome::Repeats { pattern, basis, start })
+    }
+
+    /// Does a coordinate range by clearly more than its floor within the pattern? Below that all changes match, and what
+    /// is seen is parts that come to rest, compliant contacts that ring.
+    fn moves(&self, k: usize, pattern: &Pattern, floors: &Floors) -> bool {
+        let points = &self.series[k].points[pattern.start + 1..];
+        let mut ranges = Ranges::empty(self.names.len());
+        points.iter().for_each(|p| ranges.merge(&p.ranges));
+        ranges.q.iter().zip(&floors.q).any(|(range, floor)| range.1 - range.0 > CLEARLY * floor)
     }
 
     /// Ten integration tolerances.

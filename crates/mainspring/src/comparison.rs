@@ -11,8 +11,9 @@ use serde_json::{Map, Value, json};
 
 /// Motions apart by more than this fraction of a part's range are told as different.
 const APART: f64 = 0.01;
-/// Durations that differ by more than this fraction are told as different; the paper's P_t_match.
-const LASTING: f64 = 0.01;
+/// Durations that differ by more than this fraction are told as different: twice the paper's P_t_match, to which either
+/// is known.
+const LASTING: f64 = 0.02;
 /// The last part of a run in which a machine is looked at for whether it still moves.
 const LAST: f64 = 0.25;
 /// Most instants at which motions are compared.
@@ -145,8 +146,7 @@ impl<'r> Runs<'r> {
         let mut out = vec![self.ends()];
         let stalls = self.stalls();
         for (k, name) in NAMES.iter().enumerate() {
-            let parts: Vec<String> =
-                stalls.iter().filter(|s| s.1 == k).map(|s| s.0.name.clone()).collect();
+            let parts: Vec<String> = stalls.iter().filter(|s| s.1 == k).map(|s| s.0.name.clone()).collect();
             if !parts.is_empty() {
                 let from = number((1.0 - LAST) * self.until, 4);
                 let (verb, other) = (if parts.len() == 1 { "stands" } else { "stand" }, NAMES[1 - k]);
@@ -189,7 +189,10 @@ impl<'r> Runs<'r> {
             share(a).total_cmp(&share(b))
         });
         let (Some(worst), Some((first, t))) = (worst, self.apart_from()) else {
-            return format!("Up to {} s no part is apart by a hundredth of its range.", number(self.until, 5));
+            return format!(
+                "Up to {} s no part is apart by a hundredth of its range.",
+                number(self.until, 5)
+            );
         };
         format!(
             "They first part by a hundredth of a part's range at {} s ({}), and furthest at {} s, where {} differs by {}.",
@@ -232,8 +235,7 @@ fn instants(runs: [&SimulationResult; 2], until: f64) -> Vec<f64> {
 
 fn distance(t: &[f64], samples: &[[Vec<f64>; 2]], k: usize, name: String, slides: bool) -> Distance {
     let range = |values: &mut dyn Iterator<Item = f64>| {
-        let (low, high) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         (high - low).max(0.0)
     };
     let end = t.last().copied().unwrap_or(0.0);
@@ -273,13 +275,9 @@ impl Predictions<'_> {
             Outcome::Repeats { start, .. } => start.t,
             _ => 0.0,
         };
-        let (first, second) = (self.rigid.changes(a), self.compliant.changes(b));
-        let all = first.into_iter().zip(second).enumerate();
-        all.map(|(k, (a, b))| {
-            let range = travel(self.rigid, k, start, self.patterns().map_or(0.0, |p| p[0].duration));
-            (a.0, [a.1, b.1], range)
-        })
-        .collect()
+        let range = |k: usize| travel(self.rigid, k, start, a.duration);
+        let both = self.rigid.changes(a).into_iter().zip(self.compliant.changes(b)).enumerate();
+        both.map(|(k, (a, b))| (a.0, [a.1, b.1], range(k))).collect()
     }
 
     fn same_outcome(&self) -> bool {
@@ -336,7 +334,9 @@ impl Predictions<'_> {
             longer(relative)
         )];
         if !self.same_outcome() {
-            out.push("The patterns are not the same: here the answer depends on how contact is modelled.".into());
+            out.push(
+                "The patterns are not the same: here the answer depends on how contact is modelled.".into(),
+            );
         }
         out
     }

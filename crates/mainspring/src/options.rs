@@ -35,7 +35,9 @@ pub(crate) fn check_tolerance(rtol: f64) -> Result<(), Error> {
 pub(crate) fn check_law(law: &ContactLaw) -> Result<(), Error> {
     let ContactLaw { e, d, m } = *law;
     let fits = e > 0.0 && d >= 0.0 && m >= 0.0 && [e, d, m, d * m].iter().all(|x| x.is_finite());
-    let what = format!("the constants are E {e}, D {d}, M {m}; expected E above 0, D and M not negative, all finite");
+    let what = format!(
+        "the constants are E {e}, D {d}, M {m}; expected E above 0, D and M not negative, all finite"
+    );
     require(fits, "--contact-constants", what)
 }
 

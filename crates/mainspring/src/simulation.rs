@@ -196,7 +196,8 @@ impl SimulationResult {
 
     /// Times of the minima that Algorithm 12 would count.
     pub(crate) fn low_minima(&self) -> Vec<f64> {
-        let low = self.run.minima.iter().filter(|m| m.energy < self.options.range_fraction * m.top && m.t > 0.0);
+        let low =
+            self.run.minima.iter().filter(|m| m.energy < self.options.range_fraction * m.top && m.t > 0.0);
         low.map(|m| m.t).collect()
     }
 
@@ -287,7 +288,9 @@ fn advice(status: Status) -> Option<&'static str> {
         Status::Jammed => Some(
             "a drive runs against parts that cannot give way: change its motion, or what stands in its way",
         ),
-        Status::TooDeep => Some("parts overlap by more than compliant contact can stand for: raise its constant E"),
+        Status::TooDeep => {
+            Some("parts overlap by more than compliant contact can stand for: raise its constant E")
+        }
         Status::StepLimit => {
             Some("the bound on steps was met: ask for a shorter time, a looser tolerance, or more steps")
         }

@@ -3,8 +3,9 @@
 use crate::errors::{InputError, bad_input, by_index, count};
 use crate::results::{PyPrediction, PyRun, watch};
 use mainspring::{
-    CompileOptions, ContactChoice, ContactLaw, ContactModel, Machine, MatchOptions, Mechanism, PredictOptions,
-    PredictionOptions, SimulationOptions, drawing_json, inspect_json, parameters_json, predict, simulate,
+    CompileOptions, ContactChoice, ContactLaw, ContactModel, Machine, MatchOptions, Mechanism,
+    PredictOptions, PredictionOptions, SimulationOptions, drawing_json, inspect_json, parameters_json,
+    predict, simulate,
 };
 use pyo3::prelude::*;
 use std::path::Path;
@@ -62,11 +63,7 @@ impl PyMechanism {
     }
 }
 
-fn contact_of(
-    name: &str,
-    constants: Option<(f64, f64, f64)>,
-    rtol: Option<f64>,
-) -> PyResult<ContactChoice> {
+fn contact_of(name: &str, constants: Option<(f64, f64, f64)>, rtol: Option<f64>) -> PyResult<ContactChoice> {
     let model = ContactModel::named(name).ok_or_else(|| {
         InputError::new_err(format!(
             "--contact:1:1: error: no contact model {name:?}; expected rigid, compliant or both"

@@ -50,22 +50,24 @@ pub struct Search<'s, 'a> {
 }
 
 impl Search<'_, '_> {
-    /// The first change, and the energy lost at the tips until then (or over the whole step).
-    pub fn run(&mut self) -> (Option<Found>, f64) {
+    /// The first change, the energy lost at the tips until then (or over the whole step), and the greatest depth seen.
+    pub fn run(&mut self) -> (Option<Found>, f64, f64) {
+        let mut deepest = 0.0f64;
         let mut losses = [0.0; 4];
         losses[0] = self.loss_at(0.0);
         let mut before = 0.0;
         for (i, &x) in NODES.iter().enumerate() {
             let states = self.states(x);
+            deepest = states.iter().map(|s| s.depth).fold(deepest, f64::max);
             losses[i + 1] = self.group.loss(&states);
             if let Some(found) = self.first_change(before, x, &states) {
                 let loss = self.loss_until(found.x, losses[0]);
-                return (Some(found), loss);
+                return (Some(found), loss, deepest);
             }
             before = x;
         }
         let sum: f64 = losses.iter().zip(WEIGHTS).map(|(p, w)| p * w).sum();
-        (None, sum * self.stretch.h)
+        (None, sum * self.stretch.h, deepest)
     }
 
     /// Energy lost from the start of the step to `x`.
@@ -147,13 +149,14 @@ impl Search<'_, '_> {
         }
         if is_on(&state.gap) || self.margin(k, between.0) < 0.0 {
             self.stretch.move_to(self.group, between.1);
-            return self.handed(k, state, between).or_else(|| self.followed(k, state, between.1, f64::INFINITY));
+            return self
+                .handed(k, state, between)
+                .or_else(|| self.followed(k, state, between.1, f64::INFINITY));
         }
         let off = self.locate(Change::RanOff(k), between);
         self.stretch.move_to(self.group, off);
         let state = self.group.state(k);
-        let found =
-            self.handed(k, &state, (between.0, off)).or_else(|| self.followed(k, &state, off, EQUAL));
+        let found = self.handed(k, &state, (between.0, off)).or_else(|| self.followed(k, &state, off, EQUAL));
         let tip = self.group.tips[k];
         let sharp = state.gap.edge_margin < 0.0 && self.overlaps.ends_sharply(&tip.candidate, &state.gap);
         found.or_else(|| sharp.then_some(Found { x: off, change: Change::RanOff(k) }))

@@ -51,6 +51,8 @@ pub struct Compliant<'a> {
     /// Longest time between looks at the motion; infinite unless an observer wants to stop early.
     pub longest_stretch: f64,
     at_once: u32,
+    /// Greatest depth within the last step.
+    deepest: f64,
     pub stats: Stats,
     pub status: Option<Status>,
 }
@@ -97,6 +99,7 @@ impl<'a> Compliant<'a> {
             next_knot: f64::INFINITY,
             longest_stretch: f64::INFINITY,
             at_once: 0,
+            deepest: 0.0,
             stats: Stats::default(),
             status: None,
             options,
@@ -218,7 +221,8 @@ impl<'a> Compliant<'a> {
             self.record.set_path(i, self.stepper.stretch.path(k));
         }
         let h = self.stepper.stretch.h;
-        let (found, loss) = self.search().run();
+        let (found, loss, deepest) = self.search().run();
+        self.deepest = deepest;
         let to = t + h * found.map_or(1.0, |f| f.x);
         let (clear, next) = self.first_event(to);
         if clear < to || !matches!(next, Next::Nothing) {
@@ -485,19 +489,15 @@ impl<'a> Compliant<'a> {
     }
 
     /// Overlaps that are no contact any more: a drive runs against what cannot give way, or the law is too soft.
-    fn too_deep(&mut self) -> Option<Status> {
-        if self.group.tips.is_empty() {
-            return None;
-        }
-        let limit = DEEPEST * self.world.system.size;
-        self.place_group();
-        let deep = (0..self.group.tips.len()).any(|k| self.group.state(k).depth > limit);
+    fn too_deep(&self) -> Option<Status> {
+        let deep = self.deepest > DEEPEST * self.world.system.size && !self.group.tips.is_empty();
         deep.then_some(if self.drives_act() { Status::Jammed } else { Status::TooDeep })
     }
 
     /// Everything rests, or moves with next to no energy left above its equilibrium.
     fn is_at_rest(&mut self) -> bool {
-        let level = AT_REST * self.record.minima.top;
+        // Motion below the solver's own error is no motion.
+        let level = self.options.rtol.powi(2).max(AT_REST) * self.record.minima.top;
         if self.drives_act()
             || kinetic(self.world.system, &self.q, &self.v) > level
             || free_energy(&self.world, &self.record.paths, self.record.t) > level
