@@ -1,7 +1,7 @@
 """The same question answered with both models of contact."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
 from mainspring.result import Result, frozen, parse
@@ -29,13 +29,19 @@ class Comparison(Result, Generic[T]):
     compliant: T
     differences: Mapping[str, Any]
     sentences: tuple[str, ...]
+    _told: Callable[[bool], str] = field(repr=False)
+
+    def to_json(self, *, timing: bool = False) -> str:
+        """Return the JSON object of `--contact both --json`; `timing` adds the seconds each run took."""
+        return self._told(True) if timing else self._text
 
     def _sentences(self) -> Iterable[str]:
         return self.sentences
 
 
-def comparison_of(text: str, rigid: T, compliant: T) -> Comparison[T]:
-    """Wrap what the core says of two results."""
+def comparison_of(told: Callable[[bool], str], rigid: T, compliant: T) -> Comparison[T]:
+    """Wrap what the core says of two results; `told(timing)` is its JSON text."""
+    text = told(False)
     o = parse(text)
     return Comparison(
         status=o["status"],
@@ -45,4 +51,5 @@ def comparison_of(text: str, rigid: T, compliant: T) -> Comparison[T]:
         compliant=compliant,
         differences=frozen(o["differences"]),
         sentences=tuple(o["sentences"]),
+        _told=told,
     )

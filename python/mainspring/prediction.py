@@ -207,4 +207,4 @@ def predict(
     if contact != "both":
         return run(contact)[1]
     (a, rigid), (b, compliant) = run("rigid"), run("compliant")
-    return comparison_of(_core.compare_predictions(a, b), rigid, compliant)
+    return comparison_of(lambda _: _core.compare_predictions(a, b), rigid, compliant)

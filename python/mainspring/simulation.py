@@ -289,5 +289,5 @@ def simulate(
     if contact != "both":
         return run(contact)
     rigid, compliant = run("rigid"), run("compliant")
-    text = _core.compare_runs(rigid.trajectory._run, compliant.trajectory._run, False)
-    return comparison_of(text, rigid, compliant)
+    a, b = rigid.trajectory._run, compliant.trajectory._run
+    return comparison_of(lambda timing: _core.compare_runs(a, b, timing), rigid, compliant)

@@ -1,12 +1,13 @@
 //! Both models of contact on one machine: where and by how much they differ (docs/guide/json.md).
 
 use crate::contact_model::constants;
+use crate::contacts::bodies;
 use crate::prediction::PredictionResult;
 use crate::sentences::travel;
 use crate::simulation::SimulationResult;
 use crate::words::{clean, list, number};
 use mainspring_behavior::{Outcome, Pattern};
-use mainspring_dynamics::Status;
+use mainspring_dynamics::{Closed, Status};
 use serde_json::{Map, Value, json};
 
 /// Motions apart by more than this fraction of a part's range are told as different.
@@ -14,6 +15,8 @@ const APART: f64 = 0.01;
 /// Durations that differ by more than this fraction are told as different: twice the paper's P_t_match, to which either
 /// is known.
 const LASTING: f64 = 0.02;
+/// Places of rest further apart than this, in radians or sizes of the machine, are told as different.
+const RESTING: f64 = 2e-3;
 /// The last part of a run in which a machine is looked at for whether it still moves.
 const LAST: f64 = 0.25;
 /// Most instants at which motions are compared.
@@ -289,16 +292,20 @@ impl Predictions<'_> {
         relative.abs() <= LASTING && self.changes(patterns).iter().all(alike)
     }
 
-    /// Both at rest in the same place, to a hundredth of how far each part has moved.
+    /// Both at rest, held by the same parts, in the same place but for what compliant contacts give way.
     fn same_rest(&self) -> bool {
-        let (Outcome::ComesToRest { jammed: a, .. }, Outcome::ComesToRest { jammed: b, .. }) =
-            (&self.rigid.outcome, &self.compliant.outcome)
+        let (
+            Outcome::ComesToRest { jammed: a, held: h, .. },
+            Outcome::ComesToRest { jammed: b, held: k, .. },
+        ) = (&self.rigid.outcome, &self.compliant.outcome)
         else {
             return true;
         };
         let (first, second) = (self.rigid.run(), self.compliant.run());
         let runs = Runs::new(&first, &second);
-        a == b && runs.distances.iter().all(|d| d.end.abs() <= APART * d.range)
+        let size = first.system().size;
+        let near = |d: &Distance| d.end.abs() <= RESTING * if d.slides { size } else { 1.0 };
+        a == b && holders(&first, h) == holders(&second, k) && runs.distances.iter().all(near)
     }
 
     fn json(&self) -> Value {
@@ -359,6 +366,14 @@ impl Predictions<'_> {
         }
         format!("W{}, but {b}: here the answer depends on how contact is modelled.", &a[1..])
     }
+}
+
+/// Pairs of bodies that carry force.
+fn holders(run: &SimulationResult, held: &[Closed]) -> Vec<(usize, usize)> {
+    let mut pairs: Vec<_> = held.iter().map(|c| bodies(run.system(), c.candidate.id)).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
 }
 
 /// `0.05 % longer`, `2 % shorter`.
