@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from mainspring.builder import Path as Path
     from mainspring.builder import Slides as Slides
     from mainspring.builder import Turns as Turns
+    from mainspring.comparison import Comparison as Comparison
     from mainspring.machine import Machine as Machine
     from mainspring.machine import Mechanism as Mechanism
     from mainspring.machine import Parameter as Parameter
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOME = {
+    "Comparison": "comparison",
     "InputError": "_core",
     "parse": "machine",
     "Arc": "builder",
@@ -85,6 +87,7 @@ __all__ = [
     "Builder",
     "Circle",
     "Close",
+    "Comparison",
     "ConfigurationSpace",
     "Energy",
     "Event",

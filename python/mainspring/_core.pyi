@@ -9,7 +9,18 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["InputError", "Machine", "Mechanism", "Prediction", "Run", "Space", "load", "parse"]
+__all__ = [
+    "InputError",
+    "Machine",
+    "Mechanism",
+    "Prediction",
+    "Run",
+    "Space",
+    "compare_predictions",
+    "compare_runs",
+    "load",
+    "parse",
+]
 
 class InputError(ValueError):
     """Bad input. `str(e)` is the whole line `FILE:LINE:COL: error: what, what was expected`."""
@@ -19,6 +30,12 @@ def load(model: str, supplement: str | None = None) -> Machine:
 
 def parse(text: str, name: str) -> Machine:
     """Read a machine from a text; the ending of the name, which errors show, says which language it is in."""
+
+def compare_runs(rigid: Run, compliant: Run, timing: bool) -> str:
+    """Return the object that `simulate --contact both --json` prints."""
+
+def compare_predictions(rigid: Prediction, compliant: Prediction) -> str:
+    """Return the object that `predict --contact both --json` prints."""
 
 @final
 class Machine:
@@ -79,15 +96,17 @@ class Mechanism:
         until: float,
         *,
         contact: str = "rigid",
-        rtol: float = 1e-8,
+        contact_constants: tuple[float, float, float] | None = None,
+        rtol: float | None = None,
         positions: list[tuple[str, float]] = ...,
         velocities: list[tuple[str, float]] = ...,
         forces: bool = False,
         max_steps: int | None = None,
         progress: Callable[[float], bool] | None = None,
     ) -> Run:
-        """Run to time `until`.
+        """Run to time `until`, with `rigid` or `compliant` contact.
 
+        `contact_constants` are E, D, M; None: the supplement's. `rtol` None: the model's own.
         `progress(t)` is called now and then (about every hundred events), never inside a step; returning
         False stops the run with status `stopped` and everything up to then.
         """
@@ -96,7 +115,8 @@ class Mechanism:
         self,
         *,
         contact: str = "rigid",
-        rtol: float = 1e-8,
+        contact_constants: tuple[float, float, float] | None = None,
+        rtol: float | None = None,
         positions: list[tuple[str, float]] = ...,
         velocities: list[tuple[str, float]] = ...,
         p_confirm: int = 2,

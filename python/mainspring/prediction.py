@@ -2,8 +2,10 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, overload
 
+from mainspring import _core
+from mainspring.comparison import Comparison, Constants, comparison_of
 from mainspring.machine import Mechanism
 from mainspring.result import Result, frozen, pairs_of, parse
 from mainspring.simulation import Simulation, result_of
@@ -44,7 +46,8 @@ class Prediction(Result):
     ----------
     reason
         Why there is no pattern: `constant_kinetic_energy`, `max_minima`, `max_time`,
-        `step_limit`, `jammed` (a drive against what cannot give way); else None.
+        `step_limit`, `jammed` (a drive against what cannot give way), `too_deep` (overlaps beyond what
+        compliant contact can stand for); else None.
     pattern
         None unless it repeats.
     starts
@@ -81,11 +84,33 @@ def _pattern(o: dict[str, Any] | None) -> Pattern | None:
     return Pattern(o["minima"], o["duration"], change, o["basis"])
 
 
+def prediction_of(core: _core.Prediction) -> Prediction:
+    """Wrap a prediction of the core."""
+    text = core.json()
+    o = parse(text)
+    simulation = result_of(core.run())
+    return Prediction(
+        status=o["status"],
+        stats=frozen(o["stats"]),
+        _text=text,
+        reason=o["reason"],
+        pattern=_pattern(o["pattern"]),
+        starts=frozen(o["starts"]) if o["starts"] else None,
+        rest=frozen(o["rest"]) if o["rest"] else None,
+        simulated_seconds=o["simulated_seconds"],
+        hypotheses=tuple(Hypothesis(h["minima"], h["formed"], h["fell"], h["why"]) for h in o["hypotheses"]),
+        sentences=tuple(o["sentences"]),
+        simulation=simulation,
+    )
+
+
+@overload
 def predict(
     mechanism: Mechanism,
     *,
-    contact: str = "rigid",
-    rtol: float = 1e-8,
+    contact: Literal["rigid", "compliant"] = "rigid",
+    contact_constants: Constants | None = None,
+    rtol: float | None = None,
     positions: Mapping[str, float] | None = None,
     velocities: Mapping[str, float] | None = None,
     confirm: int = 2,
@@ -96,12 +121,47 @@ def predict(
     max_minima: int = MAX_MINIMA,
     max_time: float = MAX_TIME,
     progress: Callable[[float], bool] | None = None,
-) -> Prediction:
+) -> Prediction: ...
+@overload
+def predict(
+    mechanism: Mechanism,
+    *,
+    contact: Literal["both"],
+    contact_constants: Constants | None = None,
+    rtol: float | None = None,
+    positions: Mapping[str, float] | None = None,
+    velocities: Mapping[str, float] | None = None,
+    confirm: int = 2,
+    range_fraction: float = 1e-5,
+    ignore: int = 4,
+    time_match: float = 0.01,
+    state_match: float = 0.02,
+    max_minima: int = MAX_MINIMA,
+    max_time: float = MAX_TIME,
+    progress: Callable[[float], bool] | None = None,
+) -> Comparison[Prediction]: ...
+def predict(
+    mechanism: Mechanism,
+    *,
+    contact: str = "rigid",
+    contact_constants: Constants | None = None,
+    rtol: float | None = None,
+    positions: Mapping[str, float] | None = None,
+    velocities: Mapping[str, float] | None = None,
+    confirm: int = 2,
+    range_fraction: float = 1e-5,
+    ignore: int = 4,
+    time_match: float = 0.01,
+    state_match: float = 0.02,
+    max_minima: int = MAX_MINIMA,
+    max_time: float = MAX_TIME,
+    progress: Callable[[float], bool] | None = None,
+) -> Prediction | Comparison[Prediction]:
     """Simulate just long enough to know what repeats, or that nothing does.
 
     Parameters
     ----------
-    contact, rtol, positions, velocities, progress
+    contact, contact_constants, rtol, positions, velocities, progress
         As for `simulate`.
     confirm
         P_confirm: a pattern must hold for so many more repetitions.
@@ -125,33 +185,26 @@ def predict(
     -----
     Gelsey 1995, Algorithm 12, with the corrections told in docs/theory/patterns.md.
     """
-    core = mechanism._inner.predict(
-        contact=contact,
-        rtol=float(rtol),
-        positions=pairs_of(positions),
-        velocities=pairs_of(velocities),
-        p_confirm=confirm,
-        p_range_fraction=range_fraction,
-        p_ignore=ignore,
-        p_t_match=time_match,
-        p_s_v_match=state_match,
-        max_minima=max_minima,
-        max_time=float(max_time),
-        progress=progress,
-    )
-    text = core.json()
-    o = parse(text)
-    simulation = result_of(core.run())
-    return Prediction(
-        status=o["status"],
-        stats=frozen(o["stats"]),
-        _text=text,
-        reason=o["reason"],
-        pattern=_pattern(o["pattern"]),
-        starts=frozen(o["starts"]) if o["starts"] else None,
-        rest=frozen(o["rest"]) if o["rest"] else None,
-        simulated_seconds=o["simulated_seconds"],
-        hypotheses=tuple(Hypothesis(h["minima"], h["formed"], h["fell"], h["why"]) for h in o["hypotheses"]),
-        sentences=tuple(o["sentences"]),
-        simulation=simulation,
-    )
+
+    def run(model: str) -> tuple[_core.Prediction, Prediction]:
+        core = mechanism._inner.predict(
+            contact=model,
+            contact_constants=contact_constants,
+            rtol=None if rtol is None else float(rtol),
+            positions=pairs_of(positions),
+            velocities=pairs_of(velocities),
+            p_confirm=confirm,
+            p_range_fraction=range_fraction,
+            p_ignore=ignore,
+            p_t_match=time_match,
+            p_s_v_match=state_match,
+            max_minima=max_minima,
+            max_time=float(max_time),
+            progress=progress,
+        )
+        return core, prediction_of(core)
+
+    if contact != "both":
+        return run(contact)[1]
+    (a, rigid), (b, compliant) = run("rigid"), run("compliant")
+    return comparison_of(lambda _: _core.compare_predictions(a, b), rigid, compliant)

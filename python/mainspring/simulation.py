@@ -3,12 +3,13 @@
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mainspring import _core
+from mainspring.comparison import Comparison, Constants, comparison_of
 from mainspring.machine import Mechanism
 from mainspring.result import Result, frozen, pairs_of, parse
 
@@ -93,8 +94,9 @@ class Event:
 class Energy:
     """The energy account of a run; losses positive.
 
-    `work` is what drives and constant torques did; `residual` is
-    (initial + work - final - friction - impacts) / max(friction + impacts, kinetic_max).
+    `work` is what drives and constant torques did; `impacts` with compliant contact what contacts took, and
+    `contact_stored` what overlaps hold at the end (0 with rigid contact); `residual` is (initial + work - final -
+    contact_stored - friction - impacts) / max(friction + impacts, kinetic_max).
     """
 
     initial: float
@@ -104,6 +106,7 @@ class Energy:
     impacts: float
     kinetic_max: float
     residual: float
+    contact_stored: float = 0.0
 
 
 _ENDED = {
@@ -111,13 +114,14 @@ _ENDED = {
     "at_rest": "Came to rest after {} s and stays there.",
     "step_limit": "Met the limit of steps after {} s.",
     "jammed": "After {} s a drive runs against parts that cannot give way.",
+    "too_deep": "After {} s parts overlap by more than compliant contact can stand for.",
     "stopped": "Was stopped after {} s.",
 }
 
 
 @dataclass(frozen=True)
 class Simulation(Result):
-    """A simulated stretch; `status` is `complete`, `at_rest`, `jammed`, `step_limit` or `stopped`.
+    """A simulated stretch; `status` is `complete`, `at_rest`, `jammed`, `too_deep`, `step_limit` or `stopped`.
 
     Attributes
     ----------
@@ -132,6 +136,8 @@ class Simulation(Result):
     forces
         When asked for: for each instant at which something changed, `t` and `contacts` just after it,
         as `Trajectory.contacts` gives them; else None.
+    contact
+        Constants E, D, M of compliant contact; None with rigid contact.
     """
 
     advice: str | None
@@ -142,6 +148,7 @@ class Simulation(Result):
     events: tuple[Event, ...]
     energy: Energy
     forces: tuple[Mapping[str, Any], ...] | None
+    contact: Mapping[str, float] | None
     trajectory: Trajectory
 
     def _sentences(self) -> Iterable[str]:
@@ -186,22 +193,52 @@ def result_of(run: _core.Run) -> Simulation:
         events=tuple(events),
         energy=Energy(**o["energy"]),
         forces=tuple(frozen(f) for f in o["forces"]) if "forces" in o else None,
+        contact=frozen(o["contact"]) if "contact" in o else None,
         trajectory=Trajectory(tuple(run.parts), t, q, v, run),
     )
 
 
+@overload
 def simulate(
     mechanism: Mechanism,
     until: float,
     *,
-    contact: str = "rigid",
-    rtol: float = 1e-8,
+    contact: Literal["rigid", "compliant"] = "rigid",
+    contact_constants: Constants | None = None,
+    rtol: float | None = None,
     positions: Mapping[str, float] | None = None,
     velocities: Mapping[str, float] | None = None,
     forces: bool = False,
     max_steps: int | None = None,
     progress: Callable[[float], bool] | None = None,
-) -> Simulation:
+) -> Simulation: ...
+@overload
+def simulate(
+    mechanism: Mechanism,
+    until: float,
+    *,
+    contact: Literal["both"],
+    contact_constants: Constants | None = None,
+    rtol: float | None = None,
+    positions: Mapping[str, float] | None = None,
+    velocities: Mapping[str, float] | None = None,
+    forces: bool = False,
+    max_steps: int | None = None,
+    progress: Callable[[float], bool] | None = None,
+) -> Comparison[Simulation]: ...
+def simulate(
+    mechanism: Mechanism,
+    until: float,
+    *,
+    contact: str = "rigid",
+    contact_constants: Constants | None = None,
+    rtol: float | None = None,
+    positions: Mapping[str, float] | None = None,
+    velocities: Mapping[str, float] | None = None,
+    forces: bool = False,
+    max_steps: int | None = None,
+    progress: Callable[[float], bool] | None = None,
+) -> Simulation | Comparison[Simulation]:
     """Run a mechanism from t = 0 to `until`.
 
     Parameters
@@ -209,9 +246,12 @@ def simulate(
     until
         End of the run, above 0, in the file's time unit.
     contact
-        Contact model: `rigid`.
+        Contact model: `rigid`; `compliant`; or `both`, which runs one after the other and tells where they differ.
+    contact_constants
+        E, D, M of compliant contact; None: the supplement's, else the paper's.
     rtol
-        Relative tolerance of states and of contact times, from 1e-13 to 1e-2.
+        Relative tolerance of states and of contact times, from 1e-13 to 1e-2; None: 1e-8 for rigid contact,
+        5e-6 for compliant contact.
     positions, velocities
         Initial state by part, in radians or the file's length; the others as the supplement says.
     forces
@@ -228,16 +268,26 @@ def simulate(
 
     Notes
     -----
-    Rigid contact: docs/theory/contact-law.md; Gelsey 1995, Appendix A, corrected.
+    Rigid contact: docs/theory/contact-law.md; Gelsey 1995, Appendix A, corrected. Compliant contact:
+    docs/theory/compliant-contact.md; Gelsey 1995, Sec. 2.2.1, corrected.
     """
-    run = mechanism._inner.simulate(
-        float(until),
-        contact=contact,
-        rtol=float(rtol),
-        positions=pairs_of(positions),
-        velocities=pairs_of(velocities),
-        forces=forces,
-        max_steps=max_steps,
-        progress=progress,
-    )
-    return result_of(run)
+
+    def run(model: str) -> Simulation:
+        made = mechanism._inner.simulate(
+            float(until),
+            contact=model,
+            contact_constants=contact_constants,
+            rtol=None if rtol is None else float(rtol),
+            positions=pairs_of(positions),
+            velocities=pairs_of(velocities),
+            forces=forces,
+            max_steps=max_steps,
+            progress=progress,
+        )
+        return result_of(made)
+
+    if contact != "both":
+        return run(contact)
+    rigid, compliant = run("rigid"), run("compliant")
+    a, b = rigid.trajectory._run, compliant.trajectory._run
+    return comparison_of(lambda timing: _core.compare_runs(a, b, timing), rigid, compliant)

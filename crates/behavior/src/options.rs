@@ -1,11 +1,13 @@
 //! What a prediction may cost, and how closely patterns must match.
 
 use crate::hypothesis::MatchOptions;
+use mainspring_dynamics::Contact;
 
 /// Options of `predict`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictOptions {
     pub matching: MatchOptions,
+    pub contact: Contact,
     /// Relative tolerance of integration.
     pub rtol: f64,
     /// Gives up after this many minima (of any series of points).
@@ -20,6 +22,7 @@ impl Default for PredictOptions {
     fn default() -> Self {
         Self {
             matching: MatchOptions::default(),
+            contact: Contact::Rigid,
             rtol: 1e-8,
             max_minima: 1000,
             max_time: 1e5,

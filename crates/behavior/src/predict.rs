@@ -8,7 +8,7 @@
 use crate::hypothesis::{Floors, Hypothesis, Label, Pattern, Point, Series};
 use crate::options::PredictOptions;
 use crate::passages::whole_turns;
-use mainspring_dynamics::{Closed, Minimum, Options, Ranges, Run, Simulation, Status, Track};
+use mainspring_dynamics::{Closed, Engine, Minimum, Options, Ranges, Run, Status, Track, start};
 use mainspring_mechanism::{ContactSource, Coordinate, Drive, Motion, System};
 use std::f64::consts::TAU;
 
@@ -32,6 +32,8 @@ pub enum NoPattern {
     StepLimit,
     /// A drive runs against parts that cannot give way.
     Jammed,
+    /// Parts overlap too deeply for compliant contact to mean anything.
+    TooDeep,
 }
 
 /// What the machine will do.
@@ -63,6 +65,9 @@ pub struct Prediction {
 /// Depth of a prominent minimum as a fraction of the greatest kinetic energy.
 const PROMINENCE: f64 = 0.01;
 
+/// How many floors a coordinate must range for changes to tell anything.
+const CLEARLY: f64 = 10.0;
+
 /// Predicts what the machine will do from its state at t = 0. `progress` is told the time and may answer false.
 pub fn predict(
     system: &System,
@@ -71,23 +76,23 @@ pub fn predict(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Prediction {
     let limits = Options { until: options.max_time, rtol: options.rtol, max_steps: options.max_steps };
-    let mut run = Simulation::new(system, source, limits);
-    run.track = Some(Track::empty(system.coordinates.len()));
-    run.longest_stretch = look_every(system);
-    let mut follower = Follower::new(system, &run, options);
+    let mut run = start(system, source, options.contact, limits);
+    let looks = look_every(system);
+    run.observe(looks);
+    let mut follower = Follower::new(system, &*run, options);
     let outcome = loop {
         if let Some(status) = run.advance() {
-            break follower.ended(&run, status);
+            break follower.ended(&mut *run, status);
         }
-        if let Some(outcome) = follower.follow(&mut run) {
+        if let Some(outcome) = follower.follow(&mut *run, looks) {
             break outcome;
         }
-        if !progress(run.t) {
+        if !progress(run.now().0) {
             break Outcome::Stopped;
         }
     };
     let hypotheses = follower.hypotheses(&outcome);
-    Prediction { outcome, hypotheses, run: run.into_run() }
+    Prediction { outcome, hypotheses, run: run.finish() }
 }
 
 /// How long to run between looks: twenty of the machine's longest own times.
@@ -140,7 +145,7 @@ struct Follower<'o> {
 }
 
 impl<'o> Follower<'o> {
-    fn new(system: &'o System, run: &Simulation, options: &'o PredictOptions) -> Self {
+    fn new(system: &'o System, run: &dyn Engine, options: &'o PredictOptions) -> Self {
         let n = system.coordinates.len();
         let turns = |i: &usize| {
             let joints = system.bodies.iter().flat_map(|b| &b.chain);
@@ -157,28 +162,24 @@ impl<'o> Follower<'o> {
             seen: 0,
             waiting: None,
             turning: (0..n).filter(turns).collect(),
-            origins: run.q.clone(),
-            least_energy: run.energy.kinetic_max,
+            origins: run.now().1.to_vec(),
+            least_energy: run.energy().kinetic_max,
             tables_end: system.forces.drives.iter().flatten().map(last_point).fold(0.0, f64::max),
         }
     }
 
     /// Takes in the last stretch; an outcome once there is one.
-    fn follow(&mut self, run: &mut Simulation) -> Option<Outcome> {
-        let track = run.track.take()?;
+    fn follow(&mut self, run: &mut dyn Engine, looks: f64) -> Option<Outcome> {
+        let track = run.track().take()?;
         self.ranges.iter_mut().for_each(|r| r.merge(&track.ranges));
         let outcome = self.take_minima(run).or_else(|| self.take_turns(run, &track));
-        let energy = mainspring_dynamics::kinetic(self.system, &run.q, &run.v);
+        let (t, q, v) = run.now();
+        let energy = mainspring_dynamics::kinetic(self.system, q, v);
         self.least_energy = self.least_energy.min(energy);
-        run.track = Some(Track { ranges: Ranges::empty(self.names.len()), ..track });
+        *run.track() = Some(Track { ranges: Ranges::empty(self.names.len()), ..track });
         // Tested before any fallback: energy that never changes gives nothing to go by.
         let quiet = self.series[0].points.is_empty() && self.series[1].points.is_empty();
-        if outcome.is_none()
-            && quiet
-            && run.t >= self.tables_end
-            && run.t >= 2.0 * run.longest_stretch
-            && self.is_constant(run)
-        {
+        if outcome.is_none() && quiet && t >= self.tables_end && t >= 2.0 * looks && self.is_constant(run) {
             return Some(Outcome::NoPattern(NoPattern::ConstantKineticEnergy));
         }
         let most = self.options.max_minima;
@@ -186,9 +187,9 @@ impl<'o> Follower<'o> {
         outcome.or_else(|| full.then_some(Outcome::NoPattern(NoPattern::TooManyMinima)))
     }
 
-    fn take_minima(&mut self, run: &Simulation) -> Option<Outcome> {
-        while self.seen < run.minima.found.len() {
-            let minimum = run.minima.found[self.seen].clone();
+    fn take_minima(&mut self, run: &dyn Engine) -> Option<Outcome> {
+        while self.seen < run.minima().found.len() {
+            let minimum = run.minima().found[self.seen].clone();
             self.seen += 1;
             if minimum.energy < self.options.matching.range_fraction * minimum.top {
                 let found = self.add(Basis::LowMinima, minimum.t, minimum.q.clone(), minimum.v.clone(), run);
@@ -226,9 +227,9 @@ impl<'o> Follower<'o> {
         None
     }
 
-    fn take_turns(&mut self, run: &Simulation, track: &Track) -> Option<Outcome> {
+    fn take_turns(&mut self, run: &dyn Engine, track: &Track) -> Option<Outcome> {
         // The coordinate that has turned furthest is the one to go by.
-        let travel = |i: &usize| (run.q[*i] - self.origins[*i]).abs();
+        let travel = |i: &usize| (run.now().1[*i] - self.origins[*i]).abs();
         let i = self.turning.iter().copied().max_by(|a, b| travel(a).total_cmp(&travel(b)).then(b.cmp(a)))?;
         let most = self.options.max_minima;
         for t in whole_turns(&track.paths[i], self.origins[i], track.from, track.to, most) {
@@ -241,7 +242,7 @@ impl<'o> Follower<'o> {
         None
     }
 
-    fn add(&mut self, basis: Basis, t: f64, q: Vec<f64>, v: Vec<f64>, run: &Simulation) -> Option<Outcome> {
+    fn add(&mut self, basis: Basis, t: f64, q: Vec<f64>, v: Vec<f64>, run: &dyn Engine) -> Option<Outcome> {
         if t < self.tables_end {
             return None;
         }
@@ -250,6 +251,9 @@ impl<'o> Follower<'o> {
         let floors = self.floors(run);
         let point = Point { t, q, v, ranges };
         let pattern = self.series[k].add(point, &self.names, &floors, &self.options.matching)?;
+        if !self.moves(k, &pattern, &floors) {
+            return None;
+        }
         // A series counts only where those before it have nothing to say.
         let earlier = self.series[..k].iter().flat_map(|s| &s.points);
         if earlier.filter(|p| p.t >= pattern.since).count() > 0 {
@@ -263,37 +267,48 @@ impl<'o> Follower<'o> {
         Some(Outcome::Repeats { pattern, basis, start })
     }
 
+    /// Does a coordinate range by clearly more than its floor within the pattern? Below that all changes match, and what
+    /// is seen is parts that come to rest, compliant contacts that ring.
+    fn moves(&self, k: usize, pattern: &Pattern, floors: &Floors) -> bool {
+        let points = &self.series[k].points[pattern.start + 1..];
+        let mut ranges = Ranges::empty(self.names.len());
+        points.iter().for_each(|p| ranges.merge(&p.ranges));
+        ranges.q.iter().zip(&floors.q).any(|(range, floor)| range.1 - range.0 > CLEARLY * floor)
+    }
+
     /// Ten integration tolerances.
-    fn floors(&self, run: &Simulation) -> Floors {
+    fn floors(&self, run: &dyn Engine) -> Floors {
         let (positions, speeds) = run.scales();
         let ten = |x: &f64| 10.0 * self.options.rtol * x;
         Floors { q: positions.iter().map(ten).collect(), v: speeds.iter().map(ten).collect() }
     }
 
     /// The kinetic energy has stayed the same since the start, and is not zero.
-    fn is_constant(&self, run: &Simulation) -> bool {
-        let top = run.minima.top.max(run.energy.kinetic_max);
+    fn is_constant(&self, run: &dyn Engine) -> bool {
+        let top = run.minima().top.max(run.energy().kinetic_max);
         top > 0.0 && top - self.least_energy <= 1e-12 * top
     }
 
-    fn ended(&self, run: &Simulation, status: Status) -> Outcome {
+    fn ended(&self, run: &mut dyn Engine, status: Status) -> Outcome {
         match status {
             Status::AtRest => self.at_rest(run),
             Status::Complete if self.is_constant(run) => Outcome::NoPattern(NoPattern::ConstantKineticEnergy),
             Status::Complete => Outcome::NoPattern(NoPattern::TooLong),
             Status::StepLimit => Outcome::NoPattern(NoPattern::StepLimit),
             Status::Jammed => Outcome::NoPattern(NoPattern::Jammed),
+            Status::TooDeep => Outcome::NoPattern(NoPattern::TooDeep),
             Status::Stopped => Outcome::Stopped,
         }
     }
 
-    fn at_rest(&self, run: &Simulation) -> Outcome {
-        let held: Vec<Closed> = run.closed.iter().filter(|c| c.active).copied().collect();
-        let driven = self.system.coordinates.iter().zip(&run.q).any(|(c, q)| {
+    fn at_rest(&self, run: &mut dyn Engine) -> Outcome {
+        let held: Vec<Closed> = run.closed().into_iter().filter(|c| c.active).collect();
+        let (t, q, _) = run.now();
+        let driven = self.system.coordinates.iter().zip(q).any(|(c, q)| {
             let size = c.force.abs() + (c.stiffness * q).abs();
             (c.force - c.stiffness * q).abs() > 1e-6 * size && size > 0.0
         });
-        Outcome::ComesToRest { t: run.t, jammed: driven && !held.is_empty(), held }
+        Outcome::ComesToRest { t, jammed: driven && !held.is_empty(), held }
     }
 
     /// Hypotheses of the series that decided, or of the first that formed any.

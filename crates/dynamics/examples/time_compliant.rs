@@ -24,7 +24,7 @@ fn main() {
         let mut run = Compliant::new(&system, &source, law, options);
         run.run(&mut |_| true);
         times.push(start.elapsed());
-        let rejected = run.rejected;
+        let rejected = run.rejected();
         last = Some((run.into_run(), rejected));
     }
     times.sort();

@@ -2,21 +2,23 @@
 
 use crate::chatter::Chatter;
 use crate::component::{Component, Tolerance};
-use crate::descent::{Look, first_zero};
+use crate::contact::Contact;
 use crate::energy::{Energy, friction_loss, kinetic, potential};
 use crate::events::{Event, entries};
 use crate::flight::{Flight, State};
+use crate::halts::{Halts, halted};
 use crate::inertia::Inertia;
 use crate::minima::{Minimum, MinimumFinder};
 use crate::path::{DrivenPath, Path, Piece, Trajectory};
 use crate::place::is_standing;
 use crate::ranges::Track;
+use crate::rest::{AT_REST, free_energy, longest_swing, rest_time};
 use crate::search::{CLOSED, Stretch, Watch, first_closing};
 use crate::settle::{Closed, Group, Instant, Settled, Tie, groups, settle};
 use crate::watch::{Change, first_change};
 use crate::work::{applied_work, drive_work};
 use crate::world::World;
-use mainspring_mechanism::{ContactId, ContactSource, Coordinate, Row, System};
+use mainspring_mechanism::{ContactId, ContactSource, Row, System};
 
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +48,8 @@ pub enum Status {
     StepLimit,
     /// A drive runs against parts that cannot give way.
     Jammed,
+    /// Parts overlap too deeply for compliant contact to mean anything.
+    TooDeep,
     /// Stopped from outside.
     Stopped,
 }
@@ -60,16 +64,12 @@ pub struct Stats {
     pub impacts: u64,
 }
 
-/// Remaining energy, relative to the greatest kinetic energy, at which flights count as at rest.
-pub(crate) const AT_REST: f64 = 1e-13;
 /// Events allowed without any passage of time.
 pub(crate) const MOST_AT_ONCE: u32 = 200;
 
 /// Parts in contact are integrated at least this well: what a step leaves stays far below `OVERLAP`.
 const LOOSEST: f64 = 1e-7;
 
-/// Velocities below this fraction of what the greatest speeds make likely count as zero for dry friction.
-const HALTED: f64 = 1e-11;
 /// The part of a turn of the fastest drive after which what only drives move is looked at again.
 const DRIVEN_LOOK: f64 = 0.02;
 
@@ -87,6 +87,8 @@ pub struct Mode {
 /// A finished run: how it ended, where, and everything on the way.
 #[derive(Clone, Debug)]
 pub struct Run {
+    /// How contact was modelled.
+    pub contact: Contact,
     pub status: Status,
     /// Time reached.
     pub t: f64,
@@ -269,7 +271,7 @@ impl<'a> Simulation<'a> {
             }
             to = to.min(self.components[k].1);
         }
-        Some(to.min(self.t + self.longest_swing()))
+        Some(to.min(self.t + longest_swing(&self.paths)))
     }
 
     /// What only drives move has no error to tell how long a step may be.
@@ -283,16 +285,6 @@ impl<'a> Simulation<'a> {
         };
         let fastest = self.world.drives.iter().map(rate).fold(0.0, f64::max);
         left.min(DRIVEN_LOOK * std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE))
-    }
-
-    /// Stretches stay short against swings, so that no minimum or extreme inside is overlooked; unbounded if nothing
-    /// swings.
-    fn longest_swing(&self) -> f64 {
-        let swing = |path: &Path| match path {
-            Path::Flight(flight) if flight.panel().1 == 1.0 => 4.0 * flight.panel().0,
-            _ => f64::INFINITY,
-        };
-        self.paths.iter().map(swing).fold(f64::INFINITY, f64::min)
     }
 
     /// The first thing to happen until `to`: a contact that closes, or a change of the contacts that are closed.
@@ -311,8 +303,15 @@ impl<'a> Simulation<'a> {
         let found = first_closing(&mut self.world, &stretch, &watched, &mut real);
         let mut to = found.clear_until;
         let mut first = found.closing.map(|c| (c.t, Change::Closing(c.candidate.id)));
-        self.stop_closing(&watched, &mut to, &mut first);
-        self.first_halt(&mut to, &mut first);
+        let (world, paths, until) = (&self.world, &self.paths, to);
+        let mut halts = Halts { world, paths, from: self.t, to, first: None };
+        halts.stops(&watched);
+        halts.slides(|i| self.halted(i));
+        to = halts.to;
+        if to < until {
+            first = None;
+        }
+        first = halts.first.map(|(t, halt)| (t, Change::of_halt(halt))).or(first);
         let stretch = Stretch { paths: &self.paths, from: self.t, to };
         for (component, _) in &self.components {
             let limit = first.map_or(to, |f| f.0);
@@ -340,55 +339,9 @@ impl<'a> Simulation<'a> {
         Watch::Released { floor: closed.gap.min(0.0) }
     }
 
-    /// Looks for the first stop that closes before `to`; shortens `to` to it.
-    fn stop_closing(&self, watched: &[(ContactId, Watch)], to: &mut f64, first: &mut Option<(f64, Change)>) {
-        let closed = CLOSED * self.world.system.size;
-        for k in self.world.stops() {
-            let stop = &self.world.system.forces.stops[k];
-            let (path, slope) = (&self.paths[stop.coordinate], stop.slope());
-            let watch = watched.iter().find(|w| w.0 == ContactId::of_stop(k)).map(|w| w.1);
-            if path.is_rest() || watch == Some(Watch::Closed) {
-                continue;
-            }
-            let below = if let Some(Watch::Released { floor }) = watch { floor } else { 0.0 };
-            let bend = slope.abs() * path.bounds(path.at(self.t), *to - self.t).acceleration;
-            let look = |t: f64| {
-                let state = path.at(t);
-                Look { x: stop.gap(state.q) - below, rate: slope * state.v, bend }
-            };
-            let found = first_zero(look, (self.t, *to), closed);
-            if let Some(t) = found.zero {
-                *first = Some((t, Change::Closing(ContactId::of_stop(k))));
-            } else if found.clear_until < *to {
-                *first = None;
-            }
-            *to = found.clear_until;
-        }
-    }
-
-    /// Looks for the first velocity against dry friction that comes to zero before `to`; shortens `to` to it.
-    fn first_halt(&self, to: &mut f64, first: &mut Option<(f64, Change)>) {
-        for i in (0..self.q.len()).filter(|&i| self.world.sliding[i] != 0.0 && !self.paths[i].is_rest()) {
-            let (path, sign) = (&self.paths[i], self.world.sliding[i]);
-            let bend = path.jerk(path.bounds(path.at(self.t), *to - self.t));
-            let look = |t: f64| {
-                let (state, acceleration) = path.with_acceleration(t);
-                Look { x: sign * state.v, rate: sign * acceleration, bend }
-            };
-            let found = first_zero(look, (self.t, *to), self.halted(i));
-            if let Some(t) = found.zero {
-                *first = Some((t, Change::Halts(i)));
-            } else if found.clear_until < *to {
-                *first = None;
-            }
-            *to = found.clear_until;
-        }
-    }
-
     /// Velocities of coordinate `i` up to this count as zero for dry friction.
     fn halted(&self, i: usize) -> f64 {
-        let relative = self.speeds.iter().zip(&self.scales).map(|(v, scale)| v / scale);
-        HALTED * self.scales[i] * relative.fold(0.0, f64::max)
+        halted(i, &self.scales, &self.speeds)
     }
 
     /// Moves the present to `t` along the paths.
@@ -632,7 +585,9 @@ impl<'a> Simulation<'a> {
         if self.next_knot < f64::INFINITY || self.drives_move() {
             return false;
         }
-        if kinetic(self.world.system, &self.q, &self.v) > level || self.free_energy(self.t) > level {
+        if kinetic(self.world.system, &self.q, &self.v) > level
+            || free_energy(&self.world, &self.paths, self.t) > level
+        {
             return false;
         }
         let mut components = std::mem::take(&mut self.components);
@@ -655,54 +610,12 @@ impl<'a> Simulation<'a> {
         kinetic(self.world.system, &self.q, &gained) <= level
     }
 
-    /// Energy that flights still hold above their equilibria, at time `t` along the present paths. Infinite when
-    /// one has no equilibrium.
-    fn free_energy(&self, t: f64) -> f64 {
-        let coordinates = &self.world.system.coordinates;
-        coordinates
-            .iter()
-            .zip(&self.paths)
-            .enumerate()
-            .filter(|(_, (_, path))| matches!(path, Path::Flight(_)))
-            .map(|(i, (c, path))| {
-                let State { q, v } = path.at(t);
-                let force = c.force + self.world.dry_force(i);
-                let away = if c.stiffness > 0.0 {
-                    0.5 * c.stiffness * (q - force / c.stiffness).powi(2)
-                } else if force != 0.0 {
-                    f64::INFINITY
-                } else {
-                    0.0
-                };
-                0.5 * c.inertia * v * v + away
-            })
-            .sum()
-    }
-
     /// Shortens a stretch of flights only to the time at which they come to rest.
     fn rest_time(&self, to: f64) -> f64 {
-        let top = self.minima.top.max(self.energy.kinetic_max);
-        // Before anything has moved, what can still be set free stands for the greatest kinetic energy.
-        let level = AT_REST * if top > 0.0 { top } else { self.free_energy(self.t) };
-        if !self.components.is_empty()
-            || self.drives_move()
-            || self.next_knot < f64::INFINITY
-            || level <= 0.0
-            || !level.is_finite()
-            || self.free_energy(to) > level
-        {
+        if !self.components.is_empty() || self.drives_move() || self.next_knot < f64::INFINITY {
             return to;
         }
-        let (mut moving, mut resting) = (self.t, to);
-        for _ in 0..100 {
-            let middle = 0.5 * (moving + resting);
-            if self.free_energy(middle) > level {
-                moving = middle;
-            } else {
-                resting = middle;
-            }
-        }
-        resting
+        rest_time(&self.world, &self.paths, (self.t, to), self.minima.top.max(self.energy.kinetic_max))
     }
 
     /// Scales of position and velocity that tolerances are relative to, by coordinate.
@@ -714,6 +627,7 @@ impl<'a> Simulation<'a> {
     pub fn into_run(mut self) -> Run {
         let status = self.status.unwrap_or_else(|| self.end(Status::Stopped));
         Run {
+            contact: Contact::Rigid,
             status,
             t: self.t,
             q: self.q,
@@ -739,17 +653,6 @@ impl<'a> Simulation<'a> {
         self.stats.gap_evaluations = self.world.evaluations;
         self.status = Some(status);
         status
-    }
-}
-
-/// The time in which a coordinate's springs or friction act: √(I/k), or I/h, or 1.
-pub(crate) fn natural_time(c: &Coordinate) -> f64 {
-    if c.stiffness > 0.0 {
-        (c.inertia / c.stiffness).sqrt()
-    } else if c.damping > 0.0 {
-        c.inertia / c.damping
-    } else {
-        1.0
     }
 }
 

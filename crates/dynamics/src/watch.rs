@@ -2,6 +2,7 @@
 //! dry friction no longer holds.
 
 use crate::component::Component;
+use crate::halts::Halt;
 use crate::linear::Small;
 use crate::root::narrow;
 use crate::search::Stretch;
@@ -24,6 +25,14 @@ pub enum Change {
 }
 
 impl Change {
+    /// Of a stop or a velocity that has come to zero.
+    pub fn of_halt(halt: Halt) -> Self {
+        match halt {
+            Halt::Stop(k) => Change::Closing(ContactId::of_stop(k)),
+            Halt::Slide(i) => Change::Halts(i),
+        }
+    }
+
     /// The contact that lets go, if it is a change of that kind.
     pub fn leaving(self) -> Option<ContactId> {
         match self {

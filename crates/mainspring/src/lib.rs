@@ -1,5 +1,7 @@
 //! The facade: load, compile, inspect, map, simulate, predict, as JSON with stable keys (docs/guide/json.md).
 
+mod comparison;
+mod contact_model;
 mod contacts;
 mod drawing;
 mod inspect;
@@ -15,14 +17,16 @@ mod space_request;
 mod space_tiles;
 mod words;
 
+pub use comparison::{compared_predictions, compared_runs};
+pub use contact_model::{ContactChoice, ContactModel};
 pub use drawing::drawing_json;
 pub use inspect::{inspect_json, parameters_json};
 pub use mainspring_behavior::{MatchOptions, Outcome, PredictOptions};
 pub use mainspring_cspace::{End, Gap, Interval, Stage, Transmission};
 pub use mainspring_dynamics::Status;
-pub use mainspring_mechanism::{CompileOptions, Mechanism};
+pub use mainspring_mechanism::{CompileOptions, ContactLaw, Mechanism};
 pub use mainspring_model::{Error, Machine};
-pub use prediction::{PredictionResult, predict};
+pub use prediction::{PredictionOptions, PredictionResult, predict};
 pub use simulation::{SimulationOptions, SimulationResult, simulate};
 pub use space::{Space, SpaceAxis, SpaceMark, SpaceWay, configuration_space};
 pub use space_request::SpaceRequest;

@@ -1,5 +1,6 @@
 //! `predict`: what the machine will do, and the stretch of motion it was read from.
 
+use crate::contact_model::{ContactChoice, constants};
 use crate::options::check_prediction;
 use crate::sentences::sentences;
 use crate::simulation::{SimulationOptions, SimulationResult};
@@ -9,6 +10,14 @@ use mainspring_mechanism::Mechanism;
 use mainspring_model::Error;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
+
+/// What `predict` is asked to do.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PredictionOptions {
+    pub contact: ContactChoice,
+    /// The search; its model of contact and its tolerance are taken from `contact`.
+    pub search: PredictOptions,
+}
 
 /// A prediction with the run it is based on.
 #[derive(Clone, Debug)]
@@ -26,16 +35,17 @@ pub struct PredictionResult {
 /// As `simulate`.
 pub fn predict(
     mechanism: &Mechanism,
-    options: &PredictOptions,
+    options: &PredictionOptions,
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<PredictionResult, Error> {
-    check_prediction(options)?;
+    check_prediction(&options.search)?;
     let system = Arc::new(mechanism.system()?);
     let source = system.direct_search();
-    let found = mainspring_behavior::predict(&system, &source, options, progress);
+    let (contact, rtol) = options.contact.resolve(&system)?;
+    let options = PredictOptions { contact, rtol, ..options.search.clone() };
+    let found = mainspring_behavior::predict(&system, &source, &options, progress);
     let simulation = SimulationOptions {
         until: found.run.t,
-        rtol: options.rtol,
         range_fraction: options.matching.range_fraction,
         ..SimulationOptions::default()
     };
@@ -65,7 +75,7 @@ impl PredictionResult {
     /// The object that `predict --json` prints.
     pub fn json(&self) -> Value {
         let (status, reason) = self.status();
-        json!({
+        let mut object = json!({
             "status": status,
             "reason": reason,
             "pattern": self.pattern(),
@@ -74,8 +84,12 @@ impl PredictionResult {
             "simulated_seconds": self.known_at(),
             "hypotheses": self.hypotheses.iter().map(hypothesis).collect::<Vec<_>>(),
             "sentences": sentences(self),
-            "stats": self.run.stats(false),
-        })
+        });
+        if let Some(constants) = constants(&self.run.run().contact) {
+            object["contact"] = constants;
+        }
+        object["stats"] = self.run.stats(false);
+        object
     }
 
     /// The word for the outcome, and the reason where there is no pattern.
@@ -166,5 +180,6 @@ fn reason_word(reason: NoPattern) -> &'static str {
         NoPattern::TooLong => "max_time",
         NoPattern::StepLimit => "step_limit",
         NoPattern::Jammed => "jammed",
+        NoPattern::TooDeep => "too_deep",
     }
 }

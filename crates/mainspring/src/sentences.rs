@@ -47,7 +47,7 @@ fn repeats(p: &PredictionResult, pattern: &Pattern, from: f64) -> Vec<String> {
 }
 
 /// How far part `i` ranges within one instance of the pattern.
-fn travel(p: &PredictionResult, i: usize, from: f64, duration: f64) -> f64 {
+pub(crate) fn travel(p: &PredictionResult, i: usize, from: f64, duration: f64) -> f64 {
     let run = p.run();
     let samples = run.times().iter().filter(|t| (from..=from + duration).contains(*t)).copied();
     let ends = [from, from + 0.25 * duration, from + 0.5 * duration, from + 0.75 * duration, from + duration];
@@ -98,6 +98,9 @@ fn no_pattern(p: &PredictionResult, reason: NoPattern) -> String {
         NoPattern::Jammed => {
             format!("No pattern: after {t} s a drive runs against parts that cannot give way.")
         }
+        NoPattern::TooDeep => format!(
+            "No pattern: at {t} s parts overlap by more than compliant contact can stand for: raise its E."
+        ),
         NoPattern::StepLimit => format!("No pattern found: the bound on steps was met at {t} s."),
     }
 }

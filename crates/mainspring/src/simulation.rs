@@ -1,9 +1,12 @@
 //! `simulate`: a run to a given time, with its dense motion.
 
+use crate::contact_model::{ContactChoice, constants};
 use crate::contacts::contacts_json;
 use crate::options::check_simulation;
 use crate::words::{by_part, clean};
-use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at, kinetic};
+use mainspring_dynamics::{
+    Contact, Event, EventKind, Mode, Options, Run, Status, compliant_forces_at, forces_at, kinetic, start,
+};
 use mainspring_mechanism::{Mechanism, System};
 use mainspring_model::Error;
 use serde_json::{Map, Value, json};
@@ -15,8 +18,7 @@ use std::time::Instant;
 pub struct SimulationOptions {
     /// In the file's unit of time.
     pub until: f64,
-    /// Relative tolerance of integration and of contact times.
-    pub rtol: f64,
+    pub contact: ContactChoice,
     pub max_steps: u64,
     /// Report contact forces after each event.
     pub forces: bool,
@@ -26,7 +28,13 @@ pub struct SimulationOptions {
 
 impl Default for SimulationOptions {
     fn default() -> Self {
-        Self { until: 1.0, rtol: 1e-8, max_steps: 10_000_000, forces: false, range_fraction: 1e-5 }
+        Self {
+            until: 1.0,
+            contact: ContactChoice::default(),
+            max_steps: 10_000_000,
+            forces: false,
+            range_fraction: 1e-5,
+        }
     }
 }
 
@@ -36,6 +44,7 @@ struct Mover {
     name: String,
     coordinate: usize,
     ratio: f64,
+    slides: bool,
 }
 
 /// A finished run with all that can be asked about it.
@@ -60,12 +69,13 @@ pub fn simulate(
     check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
     let source = system.direct_search();
-    let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
-    let start = Instant::now();
-    let mut simulation = Simulation::new(&system, &source, limits);
-    simulation.run(progress);
-    let wall_seconds = start.elapsed().as_secs_f64();
-    let run = simulation.into_run();
+    let (contact, rtol) = options.contact.resolve(&system)?;
+    let limits = Options { until: options.until, rtol, max_steps: options.max_steps };
+    let clock = Instant::now();
+    let mut engine = start(&system, &source, contact, limits);
+    while engine.advance().is_none() && progress(engine.now().0) {}
+    let wall_seconds = clock.elapsed().as_secs_f64();
+    let run = engine.finish();
     Ok(SimulationResult::new(mechanism, system.clone(), run, options.clone(), wall_seconds))
 }
 
@@ -79,7 +89,8 @@ impl SimulationResult {
     ) -> Self {
         let mover = |i: usize| {
             let (coordinate, ratio) = mechanism.subsystem_of(i)?;
-            Some(Mover { name: mechanism.parts[i].name.clone(), coordinate, ratio })
+            let slides = mechanism.slides(i);
+            Some(Mover { name: mechanism.parts[i].name.clone(), coordinate, ratio, slides })
         };
         let movers = (0..mechanism.parts.len()).filter_map(mover).collect();
         Self { system, movers, run, options, wall_seconds }
@@ -88,6 +99,16 @@ impl SimulationResult {
     /// Names of the moving parts, in the order of the model.
     pub fn parts(&self) -> Vec<String> {
         self.movers.iter().map(|m| m.name.clone()).collect()
+    }
+
+    /// Whether moving part `k` slides (and does not turn).
+    pub(crate) fn slides(&self, k: usize) -> bool {
+        self.movers[k].slides
+    }
+
+    /// The word for how it ended.
+    pub(crate) fn status_word(&self) -> &'static str {
+        status_word(self.run.status)
     }
 
     /// How it ended.
@@ -141,26 +162,24 @@ impl SimulationResult {
         let modes = &self.run.modes;
         let mode = modes.partition_point(|m| m.from <= t).checked_sub(1).map(|k| &modes[k]);
         let source = self.system.direct_search();
-        let closed = mode.map_or(vec![], |m| forces_at(&self.system, &source, m, t, (&q, &v)));
+        let forces = |m: &Mode| match &self.run.contact {
+            Contact::Rigid => forces_at(&self.system, &source, m, t, (&q, &v)),
+            Contact::Compliant(law) => compliant_forces_at(&self.system, &source, law, m, (&q, &v)),
+        };
+        let closed = mode.map_or(vec![], forces);
         Value::Array(contacts_json(&self.system, &closed, &q))
     }
 
     /// The object that `simulate --json` prints.
     pub fn json(&self, timing: bool) -> Value {
         let run = &self.run;
-        let minima: Vec<f64> = run
-            .minima
-            .iter()
-            .filter(|m| m.energy < self.options.range_fraction * m.top && m.t > 0.0)
-            .map(|m| m.t)
-            .collect();
         let mut object = json!({
             "status": status_word(run.status),
             "advice": advice(run.status),
             "t": run.t,
             "positions": self.of_parts(&run.q),
             "velocities": self.of_parts(&run.v),
-            "kinetic_energy_minima": minima,
+            "kinetic_energy_minima": self.low_minima(),
             "events": run.events.iter().map(|e| self.event(e)).collect::<Vec<_>>(),
             "energy": self.energy(),
         });
@@ -168,8 +187,18 @@ impl SimulationResult {
         if self.options.forces {
             entries.insert("forces".into(), self.forces());
         }
+        if let Some(constants) = constants(&run.contact) {
+            entries.insert("contact".into(), constants);
+        }
         entries.insert("stats".into(), self.stats(timing));
         object
+    }
+
+    /// Times of the minima that Algorithm 12 would count.
+    pub(crate) fn low_minima(&self) -> Vec<f64> {
+        let low =
+            self.run.minima.iter().filter(|m| m.energy < self.options.range_fraction * m.top && m.t > 0.0);
+        low.map(|m| m.t).collect()
     }
 
     /// Counts of work.
@@ -187,15 +216,19 @@ impl SimulationResult {
 
     fn energy(&self) -> Value {
         let e = &self.run.energy;
-        json!({
+        let mut account = json!({
             "initial": e.initial,
             "final": e.last,
             "work": e.work,
             "friction": e.friction,
             "impacts": e.impacts,
-            "kinetic_max": e.kinetic_max,
-            "residual": e.residual(),
-        })
+        });
+        if self.run.contact != Contact::Rigid {
+            account["contact_stored"] = json!(e.contact_stored);
+        }
+        account["kinetic_max"] = json!(e.kinetic_max);
+        account["residual"] = json!(e.residual());
+        account
     }
 
     fn event(&self, e: &Event) -> Value {
@@ -244,6 +277,7 @@ fn status_word(status: Status) -> &'static str {
         Status::AtRest => "at_rest",
         Status::StepLimit => "step_limit",
         Status::Jammed => "jammed",
+        Status::TooDeep => "too_deep",
         Status::Stopped => "stopped",
     }
 }
@@ -254,6 +288,9 @@ fn advice(status: Status) -> Option<&'static str> {
         Status::Jammed => Some(
             "a drive runs against parts that cannot give way: change its motion, or what stands in its way",
         ),
+        Status::TooDeep => {
+            Some("parts overlap by more than compliant contact can stand for: raise its constant E")
+        }
         Status::StepLimit => {
             Some("the bound on steps was met: ask for a shorter time, a looser tolerance, or more steps")
         }

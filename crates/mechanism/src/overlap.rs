@@ -29,6 +29,9 @@ const REACH: f64 = 8.0;
 /// Overlaps that a smooth joint hands on agree to this fraction.
 const EQUAL: f64 = 1e-6;
 
+/// Where one feature ends and the next begins both may be missed by rounding: by so much of the size, or radians.
+const ROUNDING: f64 = 1e-9;
+
 /// What is needed to follow overlaps: the boundaries of all bodies.
 #[derive(Clone, Debug)]
 pub struct Overlaps<'a> {
@@ -105,6 +108,37 @@ impl<'a> Overlaps<'a> {
         let close = EQUAL * -state.gap + 1e-12 * self.system.size;
         let next = pair.best(ids, pairs, |s| Some(difference(s)).filter(|d| *d <= close));
         next.map(|(candidate, state)| Successor { candidate, state, less: false })
+    }
+
+    /// The pair that follows along the boundary where the contact point has already left the features of `c`, whatever
+    /// its gap: the one whose gap is nearest.
+    pub fn follower(
+        &self,
+        c: &Candidate,
+        state: &GapState,
+        poses: (&Pose, &Pose),
+        pairs: &mut Vec<(u32, u32)>,
+    ) -> Option<(Candidate, GapState)> {
+        let pair = self.pair(c.id.interaction, poses);
+        let ids = (c.id.first, c.id.second);
+        pairs.clear();
+        pair.next_along(ids, pairs);
+        let on = |s: &GapState| s.edge_margin >= -ROUNDING * self.system.size && s.cone_margin >= -ROUNDING;
+        let evaluated = pairs.iter().filter_map(|&ids| pair.evaluate(ids)).filter(|(_, s)| on(s));
+        let apart = |s: &GapState| (s.gap - state.gap).abs();
+        evaluated.min_by(|a, b| apart(&a.1).total_cmp(&apart(&b.1)))
+    }
+
+    /// Are two contacts one place on neighbouring features: the same feature on one side, features that follow each
+    /// other on the other? Such hand over to each other and never count both.
+    pub fn follow(&self, a: &ContactId, b: &ContactId) -> bool {
+        if a.interaction != b.interaction {
+            return false;
+        }
+        let bodies = self.system.interactions[a.interaction as usize].bodies;
+        let next = |body: usize, i: u32, j: u32| self.boundaries[body].neighbours(i).contains(&j);
+        (a.first == b.first && next(bodies.1, a.second, b.second))
+            || (a.second == b.second && next(bodies.0, a.first, b.first))
     }
 
     /// Whether the end of the edge that the contact point is nearer to is a convex corner, where the edge's plane

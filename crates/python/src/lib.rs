@@ -17,6 +17,8 @@ fn _core(py: Python<'_>, module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("InputError", py.get_type::<InputError>())?;
     module.add_function(wrap_pyfunction!(machine::load, module)?)?;
     module.add_function(wrap_pyfunction!(machine::parse, module)?)?;
+    module.add_function(wrap_pyfunction!(results::compare_runs, module)?)?;
+    module.add_function(wrap_pyfunction!(results::compare_predictions, module)?)?;
     module.add_class::<PyMachine>()?;
     module.add_class::<PyMechanism>()?;
     module.add_class::<PyRun>()?;

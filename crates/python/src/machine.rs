@@ -4,8 +4,9 @@ use crate::errors::{InputError, bad_input, by_index, count};
 use crate::results::{PyPrediction, PyRun, watch};
 use crate::space::{self, PySpace};
 use mainspring::{
-    CompileOptions, Machine, MatchOptions, Mechanism, PredictOptions, SimulationOptions, SpaceRequest,
-    drawing_json, inspect_json, parameters_json, predict, simulate,
+    CompileOptions, ContactChoice, ContactLaw, ContactModel, Machine, MatchOptions, Mechanism,
+    PredictOptions, PredictionOptions, SimulationOptions, SpaceRequest, drawing_json, inspect_json,
+    parameters_json, predict, simulate,
 };
 use pyo3::prelude::*;
 use std::path::Path;
@@ -80,11 +81,14 @@ impl PyMechanism {
     }
 }
 
-fn rigid(contact: &str) -> PyResult<()> {
-    if contact == "rigid" {
-        return Ok(());
-    }
-    Err(InputError::new_err(format!("--contact:1:1: error: no contact model {contact:?}; expected rigid")))
+fn contact_of(name: &str, constants: Option<(f64, f64, f64)>, rtol: Option<f64>) -> PyResult<ContactChoice> {
+    let model = ContactModel::named(name).ok_or_else(|| {
+        InputError::new_err(format!(
+            "--contact:1:1: error: no contact model {name:?}; expected rigid, compliant or both"
+        ))
+    })?;
+    let law = constants.map(|(e, d, m)| ContactLaw { e, d, m });
+    Ok(ContactChoice { model, law, rtol })
 }
 
 #[pymethods]
@@ -114,7 +118,7 @@ impl PyMechanism {
     }
 
     /// Run to time `until`.
-    #[pyo3(signature = (until, *, contact = "rigid", rtol = 1e-8, positions = vec![], velocities = vec![],
+    #[pyo3(signature = (until, *, contact = "rigid", contact_constants = None, rtol = None, positions = vec![], velocities = vec![],
         forces = false, max_steps = None, progress = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
     fn simulate(
@@ -122,23 +126,24 @@ impl PyMechanism {
         py: Python<'_>,
         until: f64,
         contact: &str,
-        rtol: f64,
+        contact_constants: Option<(f64, f64, f64)>,
+        rtol: Option<f64>,
         positions: Values,
         velocities: Values,
         forces: bool,
         max_steps: Option<u64>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<PyRun> {
-        rigid(contact)?;
+        let contact = contact_of(contact, contact_constants, rtol)?;
         let mechanism = self.started(&positions, &velocities)?;
-        let mut options = SimulationOptions { until, rtol, forces, ..SimulationOptions::default() };
+        let mut options = SimulationOptions { until, contact, forces, ..SimulationOptions::default() };
         options.max_steps = max_steps.unwrap_or(options.max_steps);
         let run = watch(py, progress, |progress| simulate(&mechanism, &options, progress))?;
         Ok(PyRun(Arc::new(run.map_err(bad_input)?)))
     }
 
     /// Run until it is known what repeats.
-    #[pyo3(signature = (*, contact = "rigid", rtol = 1e-8, positions = vec![], velocities = vec![], p_confirm = 2,
+    #[pyo3(signature = (*, contact = "rigid", contact_constants = None, rtol = None, positions = vec![], velocities = vec![], p_confirm = 2,
         p_range_fraction = 1e-5, p_ignore = 4, p_t_match = 0.01, p_s_v_match = 0.02, max_minima = 1000,
         max_time = 1e5, progress = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
@@ -146,7 +151,8 @@ impl PyMechanism {
         &self,
         py: Python<'_>,
         contact: &str,
-        rtol: f64,
+        contact_constants: Option<(f64, f64, f64)>,
+        rtol: Option<f64>,
         positions: Values,
         velocities: Values,
         p_confirm: i64,
@@ -158,7 +164,7 @@ impl PyMechanism {
         max_time: f64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<PyPrediction> {
-        rigid(contact)?;
+        let contact = contact_of(contact, contact_constants, rtol)?;
         let mechanism = self.started(&positions, &velocities)?;
         let matching = MatchOptions {
             confirm: count(p_confirm, "--confirm")?,
@@ -168,7 +174,8 @@ impl PyMechanism {
             state_match: p_s_v_match,
         };
         let max_minima = count(max_minima, "--max-minima")?;
-        let options = PredictOptions { matching, rtol, max_minima, max_time, ..PredictOptions::default() };
+        let search = PredictOptions { matching, max_minima, max_time, ..PredictOptions::default() };
+        let options = PredictionOptions { contact, search };
         let found = watch(py, progress, |progress| predict(&mechanism, &options, progress))?;
         Ok(PyPrediction(Arc::new(found.map_err(bad_input)?)))
     }

@@ -1,6 +1,6 @@
 //! Runs and predictions as Python sees them.
 
-use mainspring::{PredictionResult, SimulationResult};
+use mainspring::{PredictionResult, SimulationResult, compared_predictions, compared_runs};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -122,4 +122,16 @@ impl PyPrediction {
     fn run(&self) -> PyRun {
         PyRun(self.0.run())
     }
+}
+
+/// Two runs of one machine from the same state as the object that `simulate --contact both --json` prints.
+#[pyfunction]
+pub fn compare_runs(rigid: &PyRun, compliant: &PyRun, timing: bool) -> String {
+    compared_runs(&rigid.0, &compliant.0, timing).to_string()
+}
+
+/// Two predictions of one machine as the object that `predict --contact both --json` prints.
+#[pyfunction]
+pub fn compare_predictions(rigid: &PyPrediction, compliant: &PyPrediction) -> String {
+    compared_predictions(&rigid.0, &compliant.0).to_string()
 }

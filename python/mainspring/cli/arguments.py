@@ -51,8 +51,18 @@ def _json(command: Parser) -> None:
 def _start(command: Parser) -> None:
     """Add what every command that runs a machine takes."""
     add = command.add_argument_group("the run").add_argument
-    add("--contact", choices=["rigid"], default="rigid", help="contact model (default: rigid)")
-    add("--rtol", metavar="R", default="1e-8", help="relative tolerance (default: 1e-8)")
+    add(
+        "--contact",
+        choices=["rigid", "compliant", "both"],
+        default="rigid",
+        help="contact model; both: where the two differ (default: rigid)",
+    )
+    add(
+        "--contact-constants",
+        metavar="E,D,M",
+        help="constants of compliant contact (default: the supplement's CONTACT, else 1e5,1e4,100)",
+    )
+    add("--rtol", metavar="R", help="relative tolerance (default: 1e-8 rigid, 5e-6 compliant)")
     add("--position", metavar="PART=10deg", action="append", default=[], help="start position; repeatable")
     add("--velocity", metavar="PART=5deg/s", action="append", default=[], help="start velocity; repeatable")
 

@@ -2,7 +2,7 @@
 
 import sys
 from argparse import Namespace
-from typing import TypedDict
+from typing import Any, TypedDict
 
 import mainspring as ms
 from mainspring.cli import values
@@ -32,6 +32,24 @@ def start(options: Namespace, mechanism: "ms.Mechanism") -> Start:
     return {
         "positions": values.coordinates(options.position, "--position", motions),
         "velocities": values.coordinates(options.velocity, "--velocity", motions),
+    }
+
+
+class Contact(TypedDict):
+    """The model of contact, its constants and the tolerance."""
+
+    contact: Any
+    contact_constants: tuple[float, float, float] | None
+    rtol: float | None
+
+
+def contact(options: Namespace) -> Contact:
+    """Return how contact is to be modelled."""
+    told, rtol = options.contact_constants, options.rtol
+    return {
+        "contact": options.contact,
+        "contact_constants": None if told is None else values.constants(told, "--contact-constants"),
+        "rtol": None if rtol is None else values.positive(rtol, "--rtol"),
     }
 
 

@@ -8,6 +8,7 @@ import mainspring as ms
 from mainspring.cli import opening, output, tables, values
 from mainspring.cli.faults import Stopped
 from mainspring.cli.progress import watch
+from mainspring.comparison import Comparison
 from mainspring.prediction import Hypothesis, Prediction
 
 SHOWN = 10  # hypotheses in the table: a screen, not a scroll
@@ -16,13 +17,11 @@ SHOWN = 10  # hypotheses in the table: a screen, not a scroll
 def run(options: Namespace) -> None:
     """Predict, write the report if asked for, print the answer."""
     chosen = search(options)
-    rtol = values.positive(options.rtol, "--rtol")
+    contact = opening.contact(options)
     mechanism = opening.mechanism(options)
     start = opening.start(options, mechanism)
     with watch("looking for what repeats") as progress:
-        result = ms.predict(
-            mechanism, contact=options.contact, rtol=rtol, progress=progress, **start, **chosen
-        )
+        result = ms.predict(mechanism, progress=progress, **contact, **start, **chosen)
     opening.warn(ms.find_pairs(mechanism).warnings)
     if options.report:
         from mainspring.report import page
@@ -31,7 +30,14 @@ def run(options: Namespace) -> None:
     if options.json:
         output.print_json(result.to_json())
     else:
-        account(mechanism, result)
+        if isinstance(result, Comparison):
+            print(f"{mechanism.name}: the models {result.status}.")
+            print("\n".join(result.sentences))
+            for model, found in (("rigid", result.rigid), ("compliant", result.compliant)):
+                print(f"\nwith {model} contact")
+                account(mechanism, found)
+        else:
+            account(mechanism, result)
         if options.report:
             print(f"\nreport: {options.report}")
     if progress.stopped:

@@ -9,13 +9,16 @@ import mainspring as ms
 from mainspring.cli import opening, output, tables, values
 from mainspring.cli.faults import Stopped, Usage
 from mainspring.cli.progress import watch
+from mainspring.comparison import Comparison
 from mainspring.simulation import Simulation
+
+Found = Simulation | Comparison[Simulation]
 
 
 def run(options: Namespace) -> None:
     """Run the machine, write what was asked for, print the result."""
     until = values.positive(options.until, "--until")
-    rtol = values.positive(options.rtol, "--rtol")
+    contact = opening.contact(options)
     if options.csv and not options.out:
         raise Usage("--csv: no folder for trajectory.csv; expected --out DIR as well")
     mechanism = opening.mechanism(options)
@@ -24,10 +27,9 @@ def run(options: Namespace) -> None:
         result = ms.simulate(
             mechanism,
             until,
-            contact=options.contact,
-            rtol=rtol,
             forces=options.forces,
             progress=progress,
+            **contact,
             **start,
         )
     opening.warn(ms.find_pairs(mechanism).warnings)
@@ -36,7 +38,7 @@ def run(options: Namespace) -> None:
         raise Stopped
 
 
-def _keep(options: Namespace, mechanism: "ms.Mechanism", result: Simulation) -> None:
+def _keep(options: Namespace, mechanism: "ms.Mechanism", result: Found) -> None:
     text = result.to_json(timing=options.timing)
     written = write(Path(options.out), text, result, options.csv) if options.out else []
     if options.report:
@@ -47,26 +49,41 @@ def _keep(options: Namespace, mechanism: "ms.Mechanism", result: Simulation) -> 
     if options.json:
         output.print_json(text)
     else:
-        account(mechanism, result, json.loads(text)["stats"])
+        if isinstance(result, Comparison):
+            both(mechanism, result)
+        else:
+            account(mechanism, result, json.loads(text)["stats"])
         for path in written:
             print(f"wrote {path}")
 
 
-def write(folder: Path, text: str, result: Simulation, csv: bool) -> list[str]:
-    """Write result.json, trajectory.npz and on request trajectory.csv; return their paths."""
+def write(folder: Path, text: str, result: Found, csv: bool) -> list[str]:
+    """Write result.json, trajectory.npz and on request trajectory.csv; return their paths.
+
+    With both models of contact there is a trajectory of each.
+    """
+    output.write_text(folder / "result.json", text + "\n")
+    names = ["result.json"]
+    if isinstance(result, Comparison):
+        names += _trajectory(folder, "trajectory-rigid", result.rigid, csv)
+        names += _trajectory(folder, "trajectory-compliant", result.compliant, csv)
+    else:
+        names += _trajectory(folder, "trajectory", result, csv)
+    return [str(folder / name) for name in names]
+
+
+def _trajectory(folder: Path, name: str, result: Simulation, csv: bool) -> list[str]:
     import numpy as np
 
     motion = result.trajectory
     parts = np.array(motion.parts, dtype=np.str_)
-    output.write_text(folder / "result.json", text + "\n")
     output.write_file(
-        folder / "trajectory.npz", lambda s: np.savez(s, t=motion.t, q=motion.q, v=motion.v, parts=parts)
+        folder / f"{name}.npz", lambda s: np.savez(s, t=motion.t, q=motion.q, v=motion.v, parts=parts)
     )
-    names = ["result.json", "trajectory.npz"]
-    if csv:
-        output.write_text(folder / "trajectory.csv", _csv(result))
-        names.append("trajectory.csv")
-    return [str(folder / name) for name in names]
+    if not csv:
+        return [f"{name}.npz"]
+    output.write_text(folder / f"{name}.csv", _csv(result))
+    return [f"{name}.npz", f"{name}.csv"]
 
 
 def _csv(result: Simulation) -> str:
@@ -81,6 +98,8 @@ def _csv(result: Simulation) -> str:
 _ENDED = {
     "complete": "ran to the end asked for",
     "at_rest": "came to rest and stays there",
+    "jammed": "is jammed: a drive runs against parts that cannot give way",
+    "too_deep": "ended: parts overlap by more than compliant contact can stand for; raise its constant E",
     "step_limit": "gave up at the limit of steps; ask for a shorter time or a larger --rtol",
     "stopped": "was stopped; what follows is what was finished",
 }
@@ -110,14 +129,33 @@ def account(mechanism: "ms.Mechanism", result: Simulation, stats: Mapping[str, f
     print("\nwork: " + ", ".join(counts))
 
 
-def energy_rows(result: Simulation) -> list[tuple[str, str]]:
-    """Return the energy account as rows of words and amounts."""
+def both(mechanism: "ms.Mechanism", result: Comparison[Simulation]) -> None:
+    """Say where the models differ, then by how much, and both energy accounts."""
+    print(f"{mechanism.name}: the models {result.status}.")
+    print("\n".join(result.sentences))
+    motions = {p["name"]: p["motion"]["kind"] for p in mechanism.outlines()["parts"] if p["motion"]}
+    rows = []
+    for part, d in result.differences["positions"].items():
+        kind = motions.get(part, "turn")
+        ends = (tables.coordinate(r.positions[part], kind) for r in (result.rigid, result.compliant))
+        rows.append((part, *ends, tables.coordinate(d["greatest"], kind), tables.signed(d["at"]) + " s"))
+    heads = ("part", "rigid, at its end", "compliant", "greatest difference", "at")
+    tables.show("positions", heads, rows, numeric=(1, 2, 3, 4))
+    accounts = zip(energy_rows(result.rigid, True), energy_rows(result.compliant, True), strict=True)
+    shown = ((a[0], a[1], b[1]) for a, b in accounts)
+    tables.show("energy", ("account", "rigid", "compliant"), shown, numeric=(1, 2))
+
+
+def energy_rows(result: Simulation, every: bool = False) -> list[tuple[str, str]]:
+    """Return the energy account as rows of words and amounts; `every` keeps rows of nothing."""
     e = result.energy
+    stored = ("stored in contacts", tables.signed(e.contact_stored, 8))
     return [
         ("at the start", tables.signed(e.initial, 8)),
-        *([("done by drives and torques", tables.signed(e.work, 8))] if e.work else []),
+        *([("done by drives and torques", tables.signed(e.work, 8))] if e.work or every else []),
         ("lost to friction", tables.signed(e.friction, 8)),
-        ("lost at impacts", tables.signed(e.impacts, 8)),
+        ("lost in contacts" if result.contact else "lost at impacts", tables.signed(e.impacts, 8)),
+        *([stored] if result.contact or every else []),
         ("at the end", tables.signed(e.final, 8)),
         ("residual, relative", tables.signed(e.residual, 2)),
     ]

@@ -37,6 +37,15 @@ def at_least_zero(text: str, option: str) -> float:
     return value
 
 
+def constants(text: str, option: str) -> tuple[float, float, float]:
+    """Return the three constants E, D, M of compliant contact."""
+    pieces = text.split(",")
+    if len(pieces) != 3:
+        raise Usage(f"{option} {shortened(text)}: not three numbers; expected E,D,M such as 1e5,1e4,100")
+    e, d, m = (number(piece.strip(), option) for piece in pieces)
+    return e, d, m
+
+
 def count(text: str, option: str, least: int) -> int:
     """Return a whole number between `least` and a million."""
     if not re.fullmatch(r"\d{1,7}", text, re.ASCII) or not least <= int(text) <= 1_000_000:

@@ -2,6 +2,7 @@
 
 from importlib.resources import files
 
+from mainspring.comparison import Comparison
 from mainspring.drawing import picture
 from mainspring.drawing.palette import variables
 from mainspring.drawing.svg import STYLE, colours
@@ -10,12 +11,15 @@ from mainspring.pairs import find_pairs
 from mainspring.prediction import Prediction
 from mainspring.report import plots, sections
 from mainspring.report.data import script_data, touch_marks
-from mainspring.report.sampling import Film, film
+from mainspring.report.sampling import Film, beside_film, film
 from mainspring.report.touching import Touching, touching
 from mainspring.report.words import escape, name
 from mainspring.simulation import Simulation
 
 _MOST_POSES = 40
+
+Either = Simulation | Prediction
+Shown = Either | Comparison[Simulation] | Comparison[Prediction]
 
 
 def asset(file: str) -> str:
@@ -29,11 +33,21 @@ def _poses(shown: Film) -> list[dict[str, float]]:
     return [dict(zip(shown.parts, row, strict=True)) for row in shown.q[::stride].tolist()]
 
 
+def _run(result: Either) -> Simulation:
+    return result.simulation if isinstance(result, Prediction) else result
+
+
 def _plots(
-    shown: Film, run: Simulation, touched: Touching, motions: dict[str, str], colour: dict[str, str]
+    shown: Film,
+    run: Simulation,
+    other: Simulation | None,
+    touched: Touching,
+    motions: dict[str, str],
+    colour: dict[str, str],
 ) -> str:
     time = plots.time_axis(shown)
-    panels = [plots.panel(c, shown, time) for c in plots.curves(shown, motions, colour)]
+    beside = beside_film(shown, other) if other else None
+    panels = [plots.panel(c, shown, time) for c in plots.curves(shown, motions, colour, beside)]
     note = " <small>of its largest, minima marked</small>"
     panels.append(plots.panel(plots.energy_curve(shown), shown, time, list(run.kinetic_energy_minima), note))
     for pair, spans in sorted(touched.spans.items()):
@@ -70,7 +84,7 @@ _HINT = (
 )
 
 
-def page(mechanism: Mechanism, result: Simulation | Prediction) -> str:
+def page(mechanism: Mechanism, result: Shown) -> str:
     """Return the report of a run or a prediction as one HTML text that needs nothing else.
 
     Parameters
@@ -78,26 +92,32 @@ def page(mechanism: Mechanism, result: Simulation | Prediction) -> str:
     mechanism
         The mechanism that was run.
     result
-        What `simulate` or `predict` returned for it.
+        What `simulate` or `predict` returned for it. Of two models of contact the page shows the motion with rigid
+        contact, dashed beside it that with compliant contact.
     """
-    run = result.simulation if isinstance(result, Prediction) else result
+    both = result if isinstance(result, Comparison) else None
+    main: Either = result.rigid if isinstance(result, Comparison) else result
+    other = _run(both.compliant) if both else None
+    run = _run(main)
     outlines, found = mechanism.outlines(), find_pairs(mechanism)
     colour = colours(outlines["parts"])
     motions = {p["name"]: p["motion"]["kind"] for p in outlines["parts"] if p["motion"]}
-    shown = film(result)
+    shown = film(main)
     touched = touching(outlines, run.trajectory, shown)
     title = f"{mechanism.name} in motion"
     drawing = picture(outlines, title=title, poses=_poses(shown), extra=touch_marks(touched))
     machine = f'<figure class="stage">{drawing}{_controls(shown)}</figure>'
     body = (
         f'<header><p class="eyebrow">{escape(mechanism.name)}</p>{sections.headline(result, colour)}</header>'
-        f'<div class="motion">{machine}{_plots(shown, run, touched, motions, colour)}</div>{_HINT}'
+        f'<div class="motion">{machine}{_plots(shown, run, other, touched, motions, colour)}</div>{_HINT}'
         + sections.warnings(found)
-        + sections.pattern(result, motions, colour)
+        + (sections.differences(both, motions, colour) if both else "")
+        + sections.pattern(main, motions, colour)
         + sections.pairs(found, colour)
         + sections.energy(run)
-        + sections.hypotheses(result)
-        + sections.colophon(found, run)
+        + (sections.energy(other) if other else "")
+        + sections.hypotheses(main)
+        + sections.colophon(found, run, other)
     )
     data = script_data(outlines, shown, touched, run)
     return _document(mechanism.name, body, data)

@@ -13,21 +13,30 @@ DEEPEST = -9
 
 @dataclass(frozen=True)
 class Curve:
-    """One plotted quantity: its axis and its values at the film's times."""
+    """One plotted quantity: its axis and its values at the film's times.
+
+    `beside` is the same with another model of contact; NaN where it is not known.
+    """
 
     title: str
     kind: str
     axis: Axis
     values: Floats
+    beside: Floats | None = None
 
 
-def curves(film: Film, motions: dict[str, str], colour: dict[str, str]) -> list[Curve]:
+def curves(
+    film: Film, motions: dict[str, str], colour: dict[str, str], beside: Floats | None = None
+) -> list[Curve]:
     """Return the joint positions of all moving parts as curves in their colours."""
     found = []
     for column, part in enumerate(film.parts):
         values = film.q[:, column]
+        other = None if beside is None else beside[:, column]
+        all_values = values if other is None else np.concatenate((values, other[~np.isnan(other)]))
         make = angles if motions.get(part) == "turn" else lengths
-        found.append(Curve(part, colour[part], make(float(values.min()), float(values.max())), values))
+        axis = make(float(all_values.min()), float(all_values.max()))
+        found.append(Curve(part, colour[part], axis, values, other))
     return found
 
 
@@ -85,11 +94,20 @@ def _framed(kind: str, data: str, ticks: str, told: str, drawn: str, label: str)
     )
 
 
+def _beside(curve: Curve, film: Film, time: Axis) -> str:
+    if curve.beside is None:
+        return ""
+    known = ~np.isnan(curve.beside)
+    path = line(film.t[known], curve.beside[known], time, curve.axis, 1000, 100)
+    return f'<path class="curve beside" d="{path}"/>'
+
+
 def panel(curve: Curve, film: Film, time: Axis, minima: list[float] | None = None, note: str = "") -> str:
     """Return one plot with its own vertical axis; `minima` get dots on the lowest level shown."""
     path = line(film.t, curve.values, time, curve.axis, 1000, 100)
     level = 100 * (1 - curve.axis.share(float(DEEPEST)))
-    drawn = f'{_grid(curve.axis)}<path class="curve" d="{path}"/>{_dots(minima or [], time, level)}'
+    drawn = f'{_grid(curve.axis)}<path class="curve" d="{path}"/>{_beside(curve, film, time)}'
+    drawn += _dots(minima or [], time, level)
     title = escape(curve.title)
     told = f"{curve.title} against time"
     return _framed(curve.kind, f' data-curve="{title}"', _labels(curve.axis), told, drawn, title + note)

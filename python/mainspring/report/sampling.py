@@ -63,6 +63,14 @@ def _moments(run: Simulation, loop: tuple[float, float] | None) -> Floats:
     return np.unique(np.clip(np.concatenate(pieces), 0.0, run.t))
 
 
+def beside_film(shown: Film, other: Simulation) -> Floats:
+    """Return the positions of another run at a film's moments, `(n, parts)`; NaN where it is not known."""
+    known = shown.t <= other.t if other.status != "at_rest" else np.full(len(shown.t), True)
+    q = np.full(shown.q.shape, np.nan)
+    q[known] = other.trajectory.at(shown.t[known]).q
+    return q
+
+
 def film(result: Simulation | Prediction) -> Film:
     """Choose the moments of a result and evaluate the motion there."""
     run = result.simulation if isinstance(result, Prediction) else result

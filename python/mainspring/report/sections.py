@@ -3,10 +3,11 @@
 import math
 from collections.abc import Mapping
 
+from mainspring.comparison import Comparison
 from mainspring.pairs import Axis, Kinematics, Pair
 from mainspring.prediction import Hypothesis, Prediction
 from mainspring.report.words import coloured, escape, figure, name, table
-from mainspring.result import counted
+from mainspring.result import Result, counted
 from mainspring.simulation import Simulation
 
 Colour = Mapping[str, str]
@@ -18,7 +19,7 @@ def section(title: str, *pieces: str) -> str:
     return f"<section><h2>{escape(title)}</h2>{inside}</section>" if inside else ""
 
 
-def headline(result: Simulation | Prediction, colour: Colour) -> str:
+def headline(result: Result, colour: Colour) -> str:
     """Return the answer: the first sentence large, the others after it."""
     said = list(result._sentences())
     rest = "".join(f"<p>{coloured(s, colour)}</p>" for s in said[1:])
@@ -78,6 +79,37 @@ def pattern(result: Simulation | Prediction, motions: Mapping[str, str], colour:
     return section("What one pattern changes", said, table(heads, rows, (1, 2)))
 
 
+def differences(
+    both: Comparison[Simulation] | Comparison[Prediction], motions: Mapping[str, str], colour: Colour
+) -> str:
+    """Tell where and by how much two models of contact differ."""
+    d = both.differences
+    said = "<p>Dashed beside the curves: the same with compliant contact. Differences are compliant less rigid.</p>"
+    constants = ", ".join(f"{k} {figure(v)}" for k, v in d["constants"].items())
+    law = f"<p>Compliant contact: {constants}.</p>"
+
+    def amount(part: str, value: float) -> str:
+        return _amount(value, motions.get(part) == "turn", "")
+
+    if "positions" in d:
+        heads = ("part", "greatest difference", "at", "where the compared stretch ends")
+        rows = [
+            (name(p, colour), amount(p, x["greatest"]), f"{figure(x['at'])} s", amount(p, x["end"]))
+            for p, x in d["positions"].items()
+        ]
+        return section("Where the models of contact differ", said, table(heads, rows, (1, 2, 3)), law)
+    if not d["change"]:
+        return section("Where the models of contact differ", said, law)
+    lasts = d["duration"]
+    compared = (
+        f"<p>One pattern lasts {figure(lasts['rigid'], 8)} s with rigid contact and "
+        f"{figure(lasts['compliant'], 8)} s with compliant contact.</p>"
+    )
+    rows = [(name(p, colour), amount(p, x)) for p, x in d["change"].items()]
+    listed = table(("part", "change in one pattern differs by"), rows, (1,))
+    return section("Where the models of contact differ", said, compared, listed, law)
+
+
 def _hypothesis_row(h: Hypothesis) -> tuple[str, str, str, str]:
     fell = "holds" if h.fell is None else f"{figure(h.fell)} s"
     return str(h.minima), f"{figure(h.formed)} s", fell, escape(h.why or "")
@@ -106,13 +138,15 @@ def energy(run: Simulation) -> str:
         ("at the start", figure(e.initial, 8), ""),
         *([("done by drives and torques", figure(e.work, 8), "")] if e.work else []),
         ("lost to friction", figure(e.friction, 8), _bar(e.friction, lost)),
-        ("lost at impacts", figure(e.impacts, 8), _bar(e.impacts, lost)),
+        ("lost in contacts" if run.contact else "lost at impacts", figure(e.impacts, 8), _bar(e.impacts, lost)),
+        *([("stored in contacts", figure(e.contact_stored, 8), "")] if run.contact else []),
         ("at the end", figure(e.final, 8), ""),
     ]
     closes = (
         f"<p>The account closes to {figure(abs(e.residual), 2)} of what was lost or at most in motion.</p>"
     )
-    return section("Where the energy went", table(("", "energy", "of the losses"), rows, (1,)), closes)
+    title = "Where the energy went, with compliant contact" if run.contact else "Where the energy went"
+    return section(title, table(("", "energy", "of the losses"), rows, (1,)), closes)
 
 
 def warnings(found: Kinematics) -> str:
@@ -121,13 +155,18 @@ def warnings(found: Kinematics) -> str:
     return section("Warnings", f"<ul>{lines}</ul>") if lines else ""
 
 
-def colophon(found: Kinematics, run: Simulation) -> str:
-    """Say how the page was made: work counted, units, sources."""
+def _made(run: Simulation) -> str:
     counts = ", ".join(f"{escape(k.replace('_', ' '))} {escape(v)}" for k, v in run.stats.items())
+    model = "Compliant contact" if run.contact else "Rigid contact"
+    return f"{model}, {figure(run.t)} s simulated: {counts}. "
+
+
+def colophon(found: Kinematics, run: Simulation, other: Simulation | None = None) -> str:
+    """Say how the page was made: work counted, units, sources."""
     named = ", ".join(f"{escape(k)} {escape(v)}" for k, v in found.units.items() if v and k != "angle")
     units = f"Units: {named}" if named else "Lengths, masses and times are in the file's own units"
     return (
-        f"<footer><p>Rigid contact, {figure(run.t)} s simulated: {counts}. "
+        f"<footer><p>{_made(run)}{_made(other) if other else ''}"
         f"{units}; angles in degrees.</p>"
         "<p>Method: A. Gelsey, Automated reasoning about machines, Artificial Intelligence 74 (1995) 1–53, "
         "with corrections. Made by Mainspring; the outlines drawn are those the contacts were "

@@ -1,26 +1,31 @@
 //! A run with compliant contact: closed-form flights while nothing overlaps, a stiff solver for what does.
 
 use super::changes::{Change, Search};
+use super::dry;
 use super::group::Group;
-use super::rosenbrock::{Accelerations, Jacobian, Rosenbrock, Start};
-use super::stretch::Stretch;
-use crate::energy::{Energy, friction_loss, kinetic, potential};
+use super::steps::{Scales, Stepper};
+use super::tip::Tip;
+use crate::contact::Contact;
+use crate::energy::{kinetic, quadrature};
 use crate::events::{Event, EventKind, moving_together};
 use crate::flight::{Flight, State};
-use crate::minima::MinimumFinder;
-use crate::path::{Path, Piece, Trajectory};
+use crate::halts::{Halt, Halts, halted};
+use crate::inertia::Inertia;
+use crate::path::{DrivenPath, Path};
 use crate::place::is_standing;
-use crate::ranges::Track;
+use crate::recorder::Recorder;
+use crate::rest::{AT_REST, free_energy, longest_swing, rest_time};
 use crate::search::{CLOSED, TOGETHER, Watch, first_closing};
 use crate::settle::Closed;
-use crate::simulation::{
-    AT_REST, MOST_AT_ONCE, Mode, Options, Run, Stats, Status, natural_time, position_scales,
-};
-use crate::world::{Touch, World};
+use crate::simulation::{MOST_AT_ONCE, Mode, Options, Run, Stats, Status, position_scales};
+use crate::world::{Touch, World, stop_candidate};
 use mainspring_mechanism::{Candidate, ContactId, ContactLaw, ContactSource, Overlaps, System};
 
 /// How far outside their cones, in radians, the normals of a second tip of the same piece may point.
 const FLUSH: f64 = 0.05;
+/// Overlaps deeper than this, relative to the machine's size, are no contact any more: the shapes have lost their
+/// meaning.
+const DEEPEST: f64 = 0.01;
 
 /// A run in progress.
 pub struct Compliant<'a> {
@@ -28,89 +33,81 @@ pub struct Compliant<'a> {
     overlaps: Overlaps<'a>,
     group: Group<'a>,
     options: Options,
-    pub t: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
+    pub record: Recorder,
     speeds: Vec<f64>,
     scales: Vec<f64>,
-    paths: Vec<Path>,
-    /// The same for the search for contacts.
+    /// Paths for the search for contacts.
     strict: Vec<Path>,
-    since: Vec<f64>,
     /// Contacts that parted just now, not to be looked for before a positive gap was seen.
     released: Vec<(ContactId, f64)>,
-    modes: Vec<Mode>,
-    step: Rosenbrock,
-    jacobian: Jacobian,
-    stretch: Stretch,
-    next_step: f64,
+    stepper: Stepper,
     pairs: Vec<(u32, u32)>,
+    /// Times in which springs, friction or weight act, by coordinate.
+    natural_times: Vec<f64>,
+    /// When the acceleration of a drive jumps next.
+    next_knot: f64,
     /// Longest time between looks at the motion; infinite unless an observer wants to stop early.
     pub longest_stretch: f64,
     at_once: u32,
-    pub trajectory: Trajectory,
-    pub events: Vec<Event>,
-    pub energy: Energy,
-    pub minima: MinimumFinder,
-    /// The last stretch of motion and the ranges since they were last taken; kept only when asked for.
-    pub track: Option<Track>,
+    /// Greatest depth within the last step.
+    deepest: f64,
     pub stats: Stats,
-    /// Steps tried and not taken.
-    pub rejected: u64,
     pub status: Option<Status>,
 }
 
 /// What happens at the end of a stretch.
+#[derive(Clone, Copy)]
 enum Next {
     Nothing,
     Close(Candidate),
     Change(Change),
+    /// A sliding coordinate halts.
+    Halt(usize),
 }
 
 impl<'a> Compliant<'a> {
     /// Starts from the system's positions and velocities.
     pub fn new(system: &'a System, source: &'a dyn ContactSource, law: ContactLaw, options: Options) -> Self {
-        let (q, v): (Vec<f64>, Vec<f64>) =
+        let (mut q, mut v): (Vec<f64>, Vec<f64>) =
             system.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
-        let n = q.len();
         let world = World::new(system, source);
+        for (i, drive) in &world.drives {
+            let driven = drive.at(0.0);
+            (q[*i], v[*i]) = (driven.q, driven.v);
+        }
         let scales = position_scales(&world, &q);
-        let initial = kinetic(system, &q, &v) + potential(system, &q);
+        let natural_times = {
+            let inertia = Inertia::whole(system, &world.moved, (&q, &v));
+            (0..q.len()).map(|i| inertia.natural_time(i)).collect()
+        };
+        let own = |i: usize| 0.5 * system.coordinates[i].inertia * v[i] * v[i];
+        let driven = world.drives.iter().map(|d| own(d.0)).sum();
         let mut run = Self {
-            world,
             overlaps: Overlaps::new(system),
-            group: Group::new(system, law),
-            t: 0.0,
+            group: Group::new(&world, law),
+            record: Recorder::new(system, (&q, &v), driven),
+            world,
             speeds: v.iter().map(|v| v.abs()).collect(),
             scales,
-            paths: q.iter().map(|&q| Path::Rest { q }).collect(),
             strict: vec![],
-            since: vec![0.0; n],
             released: vec![],
-            modes: vec![],
-            step: Rosenbrock::default(),
-            jacobian: Jacobian::default(),
-            stretch: Stretch::default(),
-            next_step: f64::INFINITY,
+            stepper: Stepper::default(),
             pairs: vec![],
+            natural_times,
+            next_knot: f64::INFINITY,
             longest_stretch: f64::INFINITY,
             at_once: 0,
-            trajectory: Trajectory { pieces: vec![vec![]; n], times: vec![0.0] },
-            events: vec![],
-            energy: Energy { initial, last: initial, ..Energy::default() },
-            minima: MinimumFinder::default(),
-            track: None,
+            deepest: 0.0,
             stats: Stats::default(),
-            rejected: 0,
             status: None,
             options,
             q,
             v,
         };
-        run.energy.kinetic_max = kinetic(system, &run.q, &run.v);
-        run.minima.top = run.energy.kinetic_max;
         run.touch_at_start();
-        run.regroup();
+        run.settle(None);
         run
     }
 
@@ -127,8 +124,15 @@ impl<'a> Compliant<'a> {
                     && touch.rate(&self.v) <= 0.0
                     && is_standing(&mut self.world, &touch, &self.q, &self.v, &self.speeds)
                 {
-                    self.group.add(candidate);
+                    self.group.tips.push(Tip::new(candidate));
                 }
+            }
+        }
+        for k in self.world.stops() {
+            let stop = &self.world.system.forces.stops[k];
+            let i = stop.coordinate;
+            if stop.gap(self.q[i]) <= within && stop.slope() * self.v[i] <= 0.0 {
+                self.group.tips.push(Tip::new(stop_candidate(k)));
             }
         }
     }
@@ -139,7 +143,7 @@ impl<'a> Compliant<'a> {
             if let Some(status) = self.advance() {
                 return status;
             }
-            if !progress(self.t) {
+            if !progress(self.record.t) {
                 return self.end(Status::Stopped);
             }
         }
@@ -150,7 +154,7 @@ impl<'a> Compliant<'a> {
         if self.status.is_some() {
             return self.status;
         }
-        if self.t >= self.options.until {
+        if self.record.t >= self.options.until {
             return Some(self.end(Status::Complete));
         }
         if self.stats.steps >= self.options.max_steps || self.at_once > MOST_AT_ONCE {
@@ -160,237 +164,232 @@ impl<'a> Compliant<'a> {
             return Some(self.end(Status::AtRest));
         }
         self.stats.steps += 1;
-        let (next, loss, to) = if self.group.tips.is_empty() {
+        let (next, loss, to) = if self.group.coordinates.is_empty() {
             self.fly()
         } else {
             let Some(found) = self.push() else { return Some(self.end(Status::StepLimit)) };
             found
         };
-        self.energy.impacts += loss;
+        self.record.energy.impacts += loss;
         self.commit(to);
-        match next {
-            Next::Nothing => {}
-            Next::Close(candidate) => self.close(candidate),
-            Next::Change(change) => self.change(change),
+        self.follow(next);
+        if let Some(status) = self.too_deep() {
+            return Some(self.end(status));
         }
         self.drop_opened();
         None
     }
 
-    /// The stretch of a flight without contacts: until something closes, or the end.
+    fn follow(&mut self, next: Next) {
+        match next {
+            Next::Nothing if self.record.t >= self.next_knot => self.settle(None),
+            Next::Nothing => {}
+            Next::Close(candidate) => self.close(candidate),
+            Next::Change(change) => self.change(change),
+            Next::Halt(i) => {
+                self.v[i] = 0.0;
+                self.settle(None);
+            }
+        }
+    }
+
+    /// The longest stretch that may be looked at from now.
+    fn horizon(&self) -> f64 {
+        let t = self.record.t;
+        let end = self.options.until.min(self.next_knot);
+        end.min(t + self.longest_stretch).min(t + longest_swing(&self.record.paths))
+    }
+
+    /// The stretch of a flight without contacts: until something happens, or the end.
     fn fly(&mut self) -> (Next, f64, f64) {
-        let to = self.options.until.min(self.t + self.longest_stretch).min(self.t + self.longest_swing());
-        let to = self.rest_time(to);
-        let (to, closing) = self.first_closing(to);
-        (closing.map_or(Next::Nothing, Next::Close), 0.0, to)
+        let (t, mut to) = (self.record.t, self.horizon());
+        if !self.drives_act() {
+            let top = self.record.minima.top.max(self.record.energy.kinetic_max);
+            to = rest_time(&self.world, &self.record.paths, (t, to), top);
+        }
+        let (to, next) = self.first_event(to);
+        (next, 0.0, to)
     }
 
     /// One step of the stiff solver, cut at what happens in it. None if no step is short enough.
     fn push(&mut self) -> Option<(Next, f64, f64)> {
-        self.try_steps()?;
-        for (k, &i) in self.group.coordinates.clone().iter().enumerate() {
-            self.set_path(i, self.stretch.path(k));
+        let t = self.record.t;
+        let longest = self.horizon() - t;
+        let scales = Scales { rtol: self.options.rtol, positions: &self.scales, speeds: &self.speeds };
+        self.stepper.advance(&mut self.group, (t, &self.q, &self.v), longest, &scales)?;
+        for (k, &i) in self.group.coordinates.iter().enumerate() {
+            self.record.set_path(i, self.stepper.stretch.path(k));
         }
-        let mut search = Search {
-            group: &mut self.group,
-            overlaps: &self.overlaps,
-            stretch: &self.stretch,
-            pairs: &mut self.pairs,
-        };
-        let (found, loss) = search.run();
-        let to = self.t + self.stretch.h * found.map_or(1.0, |f| f.x);
-        let (clear, closing) = self.first_closing(to);
-        if closing.is_some() || clear < to {
-            let x = (clear - self.t) / self.stretch.h;
-            let mut search = Search {
-                group: &mut self.group,
-                overlaps: &self.overlaps,
-                stretch: &self.stretch,
-                pairs: &mut self.pairs,
-            };
+        let h = self.stepper.stretch.h;
+        let (found, loss, deepest) = self.search().run();
+        self.deepest = deepest;
+        let to = t + h * found.map_or(1.0, |f| f.x);
+        let (clear, next) = self.first_event(to);
+        if clear < to || !matches!(next, Next::Nothing) {
+            let mut search = self.search();
             let at_start = search.loss_at(0.0);
-            let loss = search.loss_until(x, at_start);
-            return Some((closing.map_or(Next::Nothing, Next::Close), loss, clear));
+            let loss = search.loss_until((clear - t) / h, at_start);
+            return Some((next, loss, clear));
         }
         Some((found.map_or(Next::Nothing, |f| Next::Change(f.change)), loss, to))
     }
 
-    /// Finds a step that fits the tolerance and takes it into `stretch`. None if none does.
-    fn try_steps(&mut self) -> Option<()> {
-        let own =
-            |list: &[f64], group: &Group| group.coordinates.iter().map(|&i| list[i]).collect::<Vec<_>>();
-        let (q, v) = (own(&self.q, &self.group), own(&self.v, &self.group));
-        let mut a = vec![0.0; q.len()];
-        self.step.resize(q.len());
-        self.group.accelerations(self.t, &q, &v, &mut a);
-        self.group.jacobian(self.t, &a, &mut self.jacobian);
-        let start = Start { t: self.t, q: &q, v: &v, a: &a };
-        let shortest = 16.0 * f64::EPSILON * (1.0 + self.t.abs());
-        let mut h = self.next_step.min(self.longest_stretch).min(self.options.until - self.t);
-        if !h.is_finite() || self.next_step == f64::INFINITY {
-            h = h.min(0.1 / self.stiffness());
-        }
-        loop {
-            if h < shortest && h < self.options.until - self.t {
-                return None;
-            }
-            let solved = self.step.attempt(&mut self.group, &start, &self.jacobian, h);
-            let error = if solved { self.error(&a, h) } else { f64::INFINITY };
-            let factor = if error.is_finite() { (0.9 * error.powf(-0.2)).clamp(0.2, 4.0) } else { 0.1 };
-            if error <= 1.0 {
-                self.next_step = h * factor;
-                self.stretch.set(&self.step, &start, h);
-                return Some(());
-            }
-            self.rejected += 1;
-            h *= factor.min(0.7);
+    fn search(&mut self) -> Search<'_, 'a> {
+        Search {
+            group: &mut self.group,
+            overlaps: &self.overlaps,
+            stretch: &self.stepper.stretch,
+            pairs: &mut self.pairs,
         }
     }
 
-    /// Greatest rate of the group's own motion: √ of the stiffest diagonal entry.
-    fn stiffness(&self) -> f64 {
-        let n = self.group.coordinates.len();
-        let greatest = (0..n).map(|k| self.jacobian.by_position[k * n + k].abs()).fold(0.0, f64::max);
-        greatest.sqrt().max(f64::MIN_POSITIVE)
-    }
-
-    /// Estimated error of the last step relative to the tolerance: velocities against the greatest speeds, positions
-    /// against what these speeds cover in the time of the contact's own oscillation.
-    fn error(&self, a: &[f64], h: f64) -> f64 {
-        let (e_q, e_v) = self.step.error();
-        let n = self.group.coordinates.len();
-        let mut sum = 0.0;
-        for (k, &i) in self.group.coordinates.iter().enumerate() {
-            let rate = self.jacobian.by_position[k * n + k].abs().sqrt();
-            let speed = self.speeds[i].max(self.step.end_v[k].abs()).max(a[k].abs() * h);
-            let speed = speed.max(f64::MIN_POSITIVE);
-            let reach = (speed / rate.max(f64::MIN_POSITIVE)).min(self.scales[i]);
-            let (x, y) = (e_q[k] / reach, e_v[k] / speed);
-            sum += x * x + y * y;
-        }
-        (sum / (2 * n) as f64).sqrt() / self.options.rtol
-    }
-
-    /// The first contact to close until `to`, and until when nothing else does.
-    fn first_closing(&mut self, to: f64) -> (f64, Option<Candidate>) {
-        let watched: Vec<(ContactId, Watch)> = self
-            .group
-            .tips
+    /// The first contact or stop to close or slide to halt until `to`, and until when nothing else does.
+    fn first_event(&mut self, to: f64) -> (f64, Next) {
+        let tips = &self.group.tips;
+        let watched: Vec<(ContactId, Watch)> = tips
             .iter()
             .map(|tip| (tip.candidate.id, Watch::Closed))
             .chain(self.released.iter().map(|&(id, floor)| (id, Watch::Released { floor })))
             .collect();
-        self.strict.clone_from(&self.paths);
-        if !self.group.tips.is_empty() {
-            for (k, &i) in self.group.coordinates.iter().enumerate() {
-                self.strict[i] = self.stretch.strict_path(k);
-            }
+        self.strict.clone_from(&self.record.paths);
+        for (k, &i) in self.group.coordinates.iter().enumerate() {
+            self.strict[i] = self.stepper.stretch.strict_path(k);
         }
-        let stretch = crate::search::Stretch { paths: &self.strict, from: self.t, to };
-        let (speeds, overlaps, tips) = (&self.speeds, &self.overlaps, &self.group.tips);
+        let t = self.record.t;
+        let stretch = crate::search::Stretch { paths: &self.strict, from: t, to };
+        let (speeds, overlaps) = (&self.speeds, &self.overlaps);
         let mut real = |world: &mut World, touch: &Touch, q: &[f64], v: &[f64]| {
             let state = &touch.state;
             if state.cone_margin >= 0.0 {
                 return is_standing(world, touch, q, v, speeds);
             }
             let id = touch.candidate.id;
-            let second = || tips.iter().any(|tip| overlaps.adjoin(&tip.candidate.id, &id));
-            state.edge_margin >= 0.0 && state.cone_margin >= -FLUSH && second()
+            let adjoins = tips.iter().any(|tip| overlaps.adjoin(&tip.candidate.id, &id));
+            let follows = || tips.iter().any(|tip| overlaps.follow(&tip.candidate.id, &id));
+            state.edge_margin >= 0.0 && state.cone_margin >= -FLUSH && adjoins && !follows()
         };
         let found = first_closing(&mut self.world, &stretch, &watched, &mut real);
-        (found.clear_until.max(self.t), found.closing.map(|c| c.candidate))
-    }
-
-    /// Stretches stay short against swings, so that no minimum or extreme inside is overlooked; unbounded if nothing
-    /// swings.
-    fn longest_swing(&self) -> f64 {
-        let swing = |path: &Path| match path {
-            Path::Flight(flight) if flight.panel().1 == 1.0 => 4.0 * flight.panel().0,
-            _ => f64::INFINITY,
-        };
-        self.paths.iter().map(swing).fold(f64::INFINITY, f64::min)
+        let mut next = found.closing.map_or(Next::Nothing, |c| Next::Close(c.candidate));
+        let until = found.clear_until.max(t);
+        let (paths, world) = (&self.record.paths, &self.world);
+        let mut halts = Halts { world, paths, from: t, to: until, first: None };
+        halts.stops(&watched);
+        halts.slides(|i| halted(i, &self.scales, speeds));
+        if halts.to < until {
+            next = Next::Nothing;
+        }
+        match halts.first {
+            Some((_, Halt::Stop(k))) => next = Next::Close(stop_candidate(k)),
+            Some((_, Halt::Slide(i))) => next = Next::Halt(i),
+            None => {}
+        }
+        (halts.to.max(t), next)
     }
 
     /// Moves the present to `t` along the paths.
     fn commit(&mut self, t: f64) {
-        let system = self.world.system;
-        self.minima.stretch(system, &self.paths, self.t, t);
-        self.energy.friction += friction_loss(system, &self.paths, self.t, t);
-        if let Some(track) = &mut self.track {
-            track.ranges.extend(&self.paths, self.t, t);
-            (track.from, track.to) = (self.t, t);
-            track.paths.clone_from(&self.paths);
+        let from = self.record.t;
+        let work = self.drive_work(from, t);
+        self.record.energy.work += work;
+        self.record.commit(self.world.system, t, (&mut self.q, &mut self.v));
+        for (speed, v) in self.speeds.iter_mut().zip(&self.v) {
+            *speed = speed.max(v.abs());
         }
-        for (i, path) in self.paths.iter().enumerate() {
-            let State { q, v } = path.at(t);
-            (self.q[i], self.v[i]) = (q, v);
-            self.speeds[i] = self.speeds[i].max(v.abs());
+        self.at_once = if t > from { 0 } else { self.at_once + 1 };
+        if !self.world.drives.is_empty() {
+            let energy = kinetic(self.world.system, &self.q, &self.v);
+            self.record.energy.kinetic_max = self.record.energy.kinetic_max.max(energy);
         }
-        self.at_once = if t > self.t { 0 } else { self.at_once + 1 };
-        self.t = t;
-        if self.trajectory.end() < t {
-            self.trajectory.times.push(t);
+    }
+
+    /// Work of the drives along the paths, by quadrature of their power.
+    fn drive_work(&mut self, from: f64, to: f64) -> f64 {
+        let paths = &self.record.paths;
+        let moving: Vec<usize> =
+            self.world.drives.iter().map(|d| d.0).filter(|&i| !paths[i].is_rest()).collect();
+        if moving.is_empty() || to <= from {
+            return 0.0;
         }
+        let (group, system) = (&mut self.group, self.world.system);
+        let own = group.coordinates.clone();
+        let smooth = quadrature(from, to, |t| {
+            group.move_to(t, |k| {
+                let State { q, v } = paths[own[k]].at(t);
+                (q, v)
+            });
+            group.drive_power(&moving)
+        });
+        let dry = |&i: &usize| system.forces.coulomb[i] * (paths[i].at(to).q - paths[i].at(from).q).abs();
+        smooth + moving.iter().map(dry).sum::<f64>()
     }
 
     fn close(&mut self, candidate: Candidate) {
-        self.group.add(candidate);
-        self.regroup();
+        self.group.tips.push(Tip::new(candidate));
+        self.settle(None);
         self.log(EventKind::Close, candidate);
         // A new contact acts at once: begin with a small part of its own time.
-        self.next_step = f64::INFINITY;
+        self.stepper.next = f64::INFINITY;
     }
 
     fn change(&mut self, change: Change) {
+        let mut giving = None;
         match change {
             Change::Clamp(k) => self.group.tips[k].clamped ^= true,
-            Change::Hand(k, next) => self.group.tips[k].candidate = next.candidate,
+            Change::Hand(k, next) => self.hand(k, next.candidate),
+            Change::Gives(i, direction) => giving = Some((i, direction)),
             Change::Part(k) | Change::RanOff(k) => {
                 let candidate = self.group.tips[k].candidate;
                 if matches!(change, Change::RanOff(_)) {
                     self.lose(k);
                 }
-                self.group.remove(k);
+                self.group.tips.remove(k);
                 self.released.push((candidate.id, 0.0));
-                self.log(EventKind::Release, candidate);
+                self.settle(None);
+                return self.log(EventKind::Release, candidate);
             }
         }
-        self.regroup();
+        self.settle(giving);
+    }
+
+    /// Another pair of features takes over at tip `k`; where it is a tip already the two become one. What they store
+    /// less is lost.
+    fn hand(&mut self, k: usize, next: Candidate) {
+        self.place_group();
+        let before = self.group.stored();
+        if self.group.tips.iter().any(|tip| tip.candidate.id == next.id) {
+            self.group.tips.remove(k);
+        } else {
+            self.group.tips[k].candidate = next;
+        }
+        self.record.energy.impacts += before - self.group.stored();
     }
 
     /// What a tip stores is lost when it runs off.
     fn lose(&mut self, k: usize) {
+        self.place_group();
+        let depth = self.group.state(k).depth;
+        self.record.energy.impacts += self.group.law.stored(depth);
+    }
+
+    /// Moves the group to the present.
+    fn place_group(&mut self) {
         let (q, v) = (&self.q, &self.v);
         let own = self.group.coordinates.clone();
-        self.group.move_to(|i| (q[own[i]], v[own[i]]));
-        let depth = self.group.state(k).depth;
-        self.energy.impacts += self.group.law.stored(depth);
+        self.group.move_to(self.record.t, |i| (q[own[i]], v[own[i]]));
     }
 
     fn log(&mut self, kind: EventKind, candidate: Candidate) {
         let closed = self.closed();
         let moving_together = moving_together(&self.world, &closed);
         let bodies = self.world.bodies(&candidate);
-        self.events.push(Event {
-            t: self.t,
-            kind,
-            contact: candidate.id,
-            bodies,
-            impulse: 0.0,
-            moving_together,
-        });
-    }
-
-    /// Contact modes so far.
-    pub fn modes(&self) -> &[Mode] {
-        &self.modes
+        let t = self.record.t;
+        let event = Event { t, kind, contact: candidate.id, bodies, impulse: 0.0, moving_together };
+        self.record.events.push(event);
     }
 
     /// The contacts that overlap now, with their forces.
     pub fn closed(&mut self) -> Vec<Closed> {
-        let (q, v) = (&self.q, &self.v);
-        let own = self.group.coordinates.clone();
-        self.group.move_to(|i| (q[own[i]], v[own[i]]));
+        self.place_group();
         (0..self.group.tips.len())
             .map(|k| {
                 let state = self.group.state(k);
@@ -401,149 +400,178 @@ impl<'a> Compliant<'a> {
             .collect()
     }
 
-    /// After contacts changed: what they no longer hold flies or rests, and the mode is noted.
-    fn regroup(&mut self) {
+    /// After something changed: what dry friction holds, paths of what the solver does not move, and the new mode.
+    fn settle(&mut self, giving: Option<(usize, f64)>) {
+        self.set_drives();
+        self.group.gather(&self.world, (&self.q, &self.v));
+        if self.world.system.forces.coulomb.iter().any(|size| *size > 0.0) {
+            self.settle_dry(giving);
+            self.group.gather(&self.world, (&self.q, &self.v));
+        }
         for i in 0..self.q.len() {
-            if !self.group.coordinates.contains(&i) {
+            if self.world.stuck[i] {
+                self.record.set_path(i, Path::Rest { q: self.q[i] });
+            } else if !self.world.moved.is_held(i) && !self.group.coordinates.contains(&i) {
                 self.set_free(i);
             }
         }
         let closed = self.closed();
-        let n = self.q.len();
-        self.modes.push(Mode { from: self.t, closed, stuck: vec![false; n], sliding: vec![0.0; n] });
+        let (stuck, sliding) = (self.world.stuck.clone(), self.world.sliding.clone());
+        self.record.modes.push(Mode { from: self.record.t, closed, stuck, sliding });
+    }
+
+    fn settle_dry(&mut self, giving: Option<(usize, f64)>) {
+        for i in 0..self.q.len() {
+            let dry = self.world.system.forces.coulomb[i] > 0.0 && !self.world.moved.is_held(i);
+            if dry && self.v[i].abs() <= halted(i, &self.scales, &self.speeds) {
+                self.v[i] = 0.0;
+            }
+        }
+        self.place_group();
+        let pressed = self.group.pressed().to_vec();
+        let now = dry::resolve(&mut self.world, self.record.t, (&self.q, &self.v), &pressed, giving);
+        self.world.set_dry(&now.stuck, &now.sliding);
+    }
+
+    /// Paths of driven coordinates from now on, and when to look again.
+    fn set_drives(&mut self) {
+        self.next_knot = f64::INFINITY;
+        self.group.drives.clear();
+        for k in 0..self.world.drives.len() {
+            let (i, drive) = self.world.drives[k];
+            let (path, until) = DrivenPath::new(drive, self.record.t);
+            let rests = path.is_rest();
+            let q = path.at(self.record.t).q;
+            self.record.set_path(i, if rests { Path::Rest { q } } else { Path::Driven(path) });
+            self.next_knot = self.next_knot.min(until);
+            self.group.drives.push((i, path));
+        }
+    }
+
+    /// Drives move something, or will.
+    fn drives_act(&self) -> bool {
+        let moves = |d: &(usize, _)| !self.record.paths[d.0].is_rest();
+        self.next_knot < f64::INFINITY || self.world.drives.iter().any(moves)
     }
 
     /// No contact acts on coordinate `i`: it flies, or stays where nothing moves it.
     fn set_free(&mut self, i: usize) {
         let c = &self.world.system.coordinates[i];
-        let force = c.force.abs() + (c.stiffness * self.q[i]).abs();
-        let acceleration = c.free_acceleration(self.q[i], self.v[i]);
+        let dry = self.world.system.forces.coulomb[i];
+        let force = c.force.abs() + (c.stiffness * self.q[i]).abs() + dry;
+        let acceleration = self.world.acceleration_alone(i, self.q[i], self.v[i]);
         let still =
             self.v[i].abs() <= 1e-13 * self.speeds[i] && acceleration.abs() <= 1e-13 * force / c.inertia;
         if still {
             self.v[i] = 0.0;
-            self.set_path(i, Path::Rest { q: self.q[i] });
-        } else if !matches!(self.paths[i], Path::Flight(_)) {
-            let state = State { q: self.q[i], v: self.v[i] };
-            let flight = Flight::new(self.t, state, c.inertia, c.damping, c.stiffness, c.force);
-            self.set_path(i, Path::Flight(flight));
-        }
-    }
-
-    fn set_path(&mut self, i: usize, path: Path) {
-        if self.paths[i] == path {
+            self.record.set_path(i, Path::Rest { q: self.q[i] });
             return;
         }
-        if self.t > self.since[i] {
-            let piece = Piece { from: self.since[i], to: self.t, path: self.paths[i] };
-            self.trajectory.pieces[i].push(piece);
+        let slides = self.world.system.forces.coulomb[i] > 0.0;
+        if slides || !matches!(self.record.paths[i], Path::Flight(_)) {
+            let state = State { q: self.q[i], v: self.v[i] };
+            let force = c.force + self.world.dry_force(i);
+            let flight = Flight::new(self.record.t, state, c.inertia, c.damping, c.stiffness, force);
+            self.record.set_path(i, Path::Flight(flight));
         }
-        (self.paths[i], self.since[i]) = (path, self.t);
     }
 
     /// Forgets contacts that parted and are open by now.
     fn drop_opened(&mut self) {
         let open = 8.0 * CLOSED * self.world.system.size;
         for (id, floor) in std::mem::take(&mut self.released) {
-            let listed = self.world.listed(id.interaction as usize);
-            let Some(candidate) = listed.iter().copied().find(|c| c.id == id) else { continue };
+            let Some(candidate) = self.world.find(id) else { continue };
             let (a, b) = self.world.place(&candidate, &self.q);
-            if self.world.touch(&candidate, (&a, &b)).state.gap <= open {
+            if self.world.touch_at(&candidate, &self.q, (&a, &b)).state.gap <= open {
                 self.released.push((id, floor));
             }
         }
     }
 
+    /// Overlaps that are no contact any more: a drive runs against what cannot give way, or the law is too soft.
+    fn too_deep(&self) -> Option<Status> {
+        let deep = self.deepest > DEEPEST * self.world.system.size && !self.group.tips.is_empty();
+        deep.then_some(if self.drives_act() { Status::Jammed } else { Status::TooDeep })
+    }
+
     /// Everything rests, or moves with next to no energy left above its equilibrium.
     fn is_at_rest(&mut self) -> bool {
-        let level = AT_REST * self.minima.top;
-        if kinetic(self.world.system, &self.q, &self.v) > level || self.free_energy(self.t) > level {
+        // Motion below the solver's own error is no motion.
+        let level = self.options.rtol.powi(2).max(AT_REST) * self.record.minima.top;
+        if self.drives_act()
+            || kinetic(self.world.system, &self.q, &self.v) > level
+            || free_energy(&self.world, &self.record.paths, self.record.t) > level
+        {
             return false;
         }
-        if self.group.tips.is_empty() {
-            return true;
+        // Would the accelerations, over the times of the springs, give it no more energy?
+        self.place_group();
+        let accelerations = self.group.present_accelerations();
+        let mut gained = vec![0.0; self.q.len()];
+        let times = self.group.coordinates.iter().map(|&i| self.natural_times[i]);
+        let longest = times.fold(0.0, f64::max);
+        for (&i, a) in self.group.coordinates.iter().zip(accelerations) {
+            gained[i] = a * longest;
         }
-        let own = self.group.coordinates.clone();
-        let (q, v): (Vec<f64>, Vec<f64>) = own.iter().map(|&i| (self.q[i], self.v[i])).unzip();
-        let mut a = vec![0.0; own.len()];
-        self.group.accelerations(self.t, &q, &v, &mut a);
-        let of = |i: &usize| &self.world.system.coordinates[*i];
-        let square = own.iter().map(|i| natural_time(of(i)).powi(2)).fold(0.0, f64::max);
-        own.iter().zip(&a).map(|(i, a)| 0.5 * of(i).inertia * a * a * square).sum::<f64>() <= level
+        kinetic(self.world.system, &self.q, &gained) <= level
     }
 
-    /// Energy that flights still hold above their equilibria, at time `t` along the present paths. Infinite when
-    /// one has no equilibrium.
-    fn free_energy(&self, t: f64) -> f64 {
-        let coordinates = &self.world.system.coordinates;
-        coordinates
-            .iter()
-            .zip(&self.paths)
-            .filter(|(_, path)| matches!(path, Path::Flight(_)))
-            .map(|(c, path)| {
-                let State { q, v } = path.at(t);
-                let away = if c.stiffness > 0.0 {
-                    0.5 * c.stiffness * (q - c.force / c.stiffness).powi(2)
-                } else if c.force != 0.0 {
-                    f64::INFINITY
-                } else {
-                    0.0
-                };
-                0.5 * c.inertia * v * v + away
-            })
-            .sum()
+    /// Scales of position and velocity that tolerances are relative to, by coordinate.
+    pub fn scales(&self) -> (&[f64], &[f64]) {
+        (&self.scales, &self.speeds)
     }
 
-    /// Shortens a stretch of flights to the time at which they come to rest.
-    fn rest_time(&self, to: f64) -> f64 {
-        let top = self.minima.top.max(self.energy.kinetic_max);
-        let level = AT_REST * if top > 0.0 { top } else { self.free_energy(self.t) };
-        if level <= 0.0 || !level.is_finite() || self.free_energy(to) > level {
-            return to;
-        }
-        let (mut moving, mut resting) = (self.t, to);
-        for _ in 0..100 {
-            let middle = 0.5 * (moving + resting);
-            if self.free_energy(middle) > level {
-                moving = middle;
-            } else {
-                resting = middle;
-            }
-        }
-        resting
+    /// Steps of the solver tried and not taken.
+    pub fn rejected(&self) -> u64 {
+        self.stepper.rejected
     }
 
     /// What is left when the run is over.
     pub fn into_run(mut self) -> Run {
         let status = self.status.unwrap_or_else(|| self.end(Status::Stopped));
         let closed = self.closed();
+        let Recorder { t, trajectory, events, modes, energy, minima, .. } = self.record;
         Run {
+            contact: Contact::Compliant(self.group.law),
             status,
-            t: self.t,
+            t,
             q: self.q,
             v: self.v,
             closed,
-            modes: self.modes,
-            trajectory: self.trajectory,
-            events: self.events,
-            energy: self.energy,
-            minima: self.minima.found,
+            modes,
+            trajectory,
+            events,
+            energy,
+            minima: minima.found,
             stats: self.stats,
         }
     }
 
     fn end(&mut self, status: Status) -> Status {
-        for i in 0..self.paths.len() {
-            let piece = Piece { from: self.since[i], to: self.t, path: self.paths[i] };
-            self.trajectory.pieces[i].push(piece);
-        }
-        self.energy.kinetic_max = self.energy.kinetic_max.max(self.minima.top);
-        self.energy.last =
-            kinetic(self.world.system, &self.q, &self.v) + potential(self.world.system, &self.q);
-        self.closed();
-        self.energy.contact_stored = self.group.stored();
+        self.record.finish(self.world.system, (&self.q, &self.v));
+        self.place_group();
+        self.record.energy.contact_stored = self.group.stored();
         self.stats.gap_evaluations = self.world.evaluations + self.group.evaluations;
         self.status = Some(status);
         status
     }
+}
+
+/// Forces of the contacts that overlap in a mode, at a state `(q, v)` within it, in their order.
+pub fn compliant_forces_at(
+    system: &System,
+    source: &dyn ContactSource,
+    law: &ContactLaw,
+    mode: &Mode,
+    (q, v): (&[f64], &[f64]),
+) -> Vec<Closed> {
+    let mut world = World::new(system, source);
+    let placed = world.place_all(q);
+    let one = |c: &Closed| {
+        let touch = world.touch_among(&c.candidate, q, &placed);
+        let (depth, rate) = (-touch.state.gap, -touch.rate(v));
+        let force = if c.active { (depth * law.slope(rate)).max(0.0) } else { 0.0 };
+        Closed { gap: touch.state.gap, force, active: force > 0.0, ..*c }
+    };
+    mode.closed.iter().map(one).collect()
 }

@@ -33,7 +33,7 @@ impl Stretch {
 
     /// Moves the group to a fraction of the step.
     pub fn move_to(&self, group: &mut Group, x: f64) {
-        group.move_to(|k| (self.positions[k].at(x), self.velocities[k].at(x)));
+        group.move_to(self.t0 + x * self.h, |k| (self.positions[k].at(x), self.velocities[k].at(x)));
     }
 
     /// The path of the group's coordinate `k`, with bounds over all of it.
