@@ -134,6 +134,9 @@ def test_the_page_knows_what_lights(page, wheel):
     marks = [int(m) for m in re.findall(r'data-mark="(\d+)"', page)]
     assert marks == list(range(len(marks)))
     assert {m for c in data["curves"] for m in c["m"]} == set(marks)
+    assert {"ewheel's corner and lever's edge", "ewheel's edge and lever's corner"} <= {
+        c["t"] for c in data["curves"]
+    }
     assert [len(c["p"]) for c in data["curves"]] == [len(c.points) for c in wheel.curves]
     assert data["moves"] == {"ewheel": [0, 1.0], "lever": [1, 1.0]}
     assert data["tiles"][0]["part"] == "ewheel"

@@ -397,6 +397,8 @@ def test_questions_out_of_range_say_so(ratchet):
         lambda: ratchet.slice(wheel=1.0, pawl=2.0),
         lambda: ratchet.slice(lever=1.0),
         lambda: ratchet.walk((0.1, 0.2)),
+        lambda: ratchet.walk((-0.05, 0.03), wheel=math.inf),
+        lambda: ratchet.slice(wheel=math.nan),
         lambda: ratchet.transmission(99),
         lambda: ratchet.transmission(0, 1.5),
         lambda: ratchet.transmission(0, at={"pawl": 0.0}),

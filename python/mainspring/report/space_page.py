@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from mainspring.drawing import picture, space_picture
-from mainspring.drawing.feature import kind_told, marked, told
+from mainspring.drawing.feature import kind_told, marked
 from mainspring.drawing.palette import variables
 from mainspring.drawing.pose import chain
 from mainspring.drawing.space import STYLE as MAP_STYLE
@@ -74,10 +74,6 @@ class _Marks:
                 self._paths.append((feature["part"], path))
         return self._known[key]
 
-    def words(self, feature: dict[str, Any]) -> str:
-        """Say which feature it is."""
-        return told(self._parts, feature)
-
     def drawn(self) -> str:
         """Return all marks, hidden, grouped by the part they move with."""
         return "".join(
@@ -87,13 +83,13 @@ class _Marks:
 
 
 def _curve(curve: dict[str, Any], marks: _Marks) -> dict[str, Any]:
-    """Return what the script needs of a curve: points, marks to light, words."""
+    """Return what the script needs of a curve: points, marks to light, words true of all its copies."""
     points = [[float(f"{x:.{_DIGITS}g}") for x in p] for p in curve["points"]]
     features = curve["features"]
     return {
         "p": points,
         "m": [marks.add(f) for f in features],
-        "t": " and ".join(marks.words(f) for f in features),
+        "t": " and ".join(f"{f['part']}'s {f['kind']}" for f in features),
     }
 
 

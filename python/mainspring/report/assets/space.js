@@ -84,7 +84,6 @@
       g.setAttribute("transform", joints.map(({ name, m }) => turn(m, position(name, q))).join(" ") + beyond(g));
     }
     here.setAttribute("cx", x); here.setAttribute("cy", y);
-    stage.classList.toggle("blocked", !open);
     const lit = new Set(hit ? hit.curve.m : []);
     marks.forEach((m, i) => { m.style.opacity = lit.has(i) ? 1 : 0; });
     near.style.display = toward.style.display = hit ? "" : "none";
@@ -93,8 +92,11 @@
       near.setAttribute("cx", nx); near.setAttribute("cy", ny);
       toward.setAttribute("d", `M${x} ${y}L${nx} ${ny}`);
     }
-    const word = open ? "free" : "blocked";
-    const touching = hit ? ` Nearest in the map: ${hit.curve.t}.` : "";
+    // Within a pixel's half the picture cannot tell.
+    const touches = hit && Math.hypot(...hit.off) < 0.5;
+    const word = touches ? "in contact" : open ? "free" : "blocked";
+    stage.classList.toggle("blocked", !open && !touches);
+    const touching = hit ? ` ${touches ? "Touching" : "Nearest in the map"}: ${hit.curve.t}.` : "";
     $("where").textContent = `${X.name} ${said(q[0], X)}, ${Y.name} ${said(q[1], Y)}: ${word}.${touching}`;
   }
   function clamp(v, axis) { return Math.min(axis.view[1], Math.max(axis.view[0], v)); }
