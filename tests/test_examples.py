@@ -10,8 +10,9 @@ from conftest import ROOT
 
 
 def _name(folder, case) -> str:
-    said = (folder.name, case.get("supplement"), case["command"], ".".join(map(str, case["path"])))
-    return "-".join(filter(None, said))
+    told = (folder.name, case.get("supplement"), case["command"], ".".join(map(str, case["path"])))
+    said = (*told, *(f"{k}={v}" for k, v in case.get("set", {}).items()), case.get("until"))
+    return "-".join(str(s) for s in said if s is not None)
 
 
 FOLDERS = sorted(p.parent for p in (ROOT / "examples").glob("*/expected.toml"))
@@ -23,11 +24,17 @@ EXPECTED = [
 _answers: dict[tuple, dict] = {}
 
 
+def _model(folder):
+    native = folder / f"{folder.name}.toml"
+    return native if native.exists() else folder / f"{folder.name}.padl"
+
+
 def _answer(folder, case) -> dict:
-    key = (folder.name, case.get("supplement"), case["command"], case.get("until"))
+    changed = case.get("set", {})
+    key = (folder.name, case.get("supplement"), case["command"], case.get("until"), *changed.items())
     if key not in _answers:
         supplement = folder / case["supplement"] if "supplement" in case else None
-        mechanism = ms.load(folder / f"{folder.name}.padl", supplement).compile()
+        mechanism = ms.load(_model(folder), supplement).compile(changed)
         made = {
             "inspect": lambda: ms.find_pairs(mechanism),
             "simulate": lambda: ms.simulate(mechanism, case["until"]),

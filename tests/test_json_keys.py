@@ -7,6 +7,7 @@ from conftest import ROOT
 
 INSPECT = ["parts", "frame", "pairs", "joints", "subsystems", "state_variables", "interactions"]
 INSPECT += ["near_misses", "closed_chains", "mobility", "warnings", "plane", "gravity", "contact", "units"]
+INSPECT += ["marks"]
 SIMULATE = ["status", "advice", "t", "positions", "velocities", "kinetic_energy_minima"]
 SIMULATE += ["events", "energy", "stats"]
 PREDICT = ["status", "reason", "pattern", "starts", "rest", "simulated_seconds", "hypotheses"]

@@ -1,13 +1,33 @@
 //! Inputs: shipped examples, random programs and random machines, mutated; token soup; random bytes.
 
+use crate::drafting::Drafting;
 use crate::program::Program;
 use crate::random::Random;
 use crate::soup::{NUMBERS, STRANGE, TOKENS};
 use crate::workshop::Workshop;
 
+/// Which form of machine is tried.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Language {
+    #[default]
+    Padl,
+    Toml,
+}
+
+impl Language {
+    /// The name that an input's model goes by.
+    pub fn file(self) -> &'static str {
+        match self {
+            Self::Padl => "m.padl",
+            Self::Toml => "m.toml",
+        }
+    }
+}
+
 /// A model and its supplement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
+    pub language: Language,
     pub model: Vec<u8>,
     pub supplement: Option<Vec<u8>>,
 }
@@ -18,8 +38,38 @@ const SUPPLEMENT: &str = include_str!("../../examples/escapement/escapement.sup"
 /// Longest text that mutations make, in bytes.
 const LONGEST: usize = 20_000;
 
+/// Shipped machines in TOML.
+const DRAWN: &[&str] = &[
+    include_str!("../../examples/geneva-four/geneva-four.toml"),
+    include_str!("../../examples/scotch-yoke/scotch-yoke.toml"),
+    include_str!("../../examples/cam-swinging-follower/cam-swinging-follower.toml"),
+    include_str!("../../examples/ratchet-and-pawl/ratchet-and-pawl.toml"),
+    include_str!("../../examples/detent/detent.toml"),
+];
+
 /// Input number `index` of a run with this seed.
-pub fn input(seed: u64, index: u64) -> Input {
+pub fn input(language: Language, seed: u64, index: u64) -> Input {
+    match language {
+        Language::Padl => padl(seed, index),
+        Language::Toml => toml(seed, index),
+    }
+}
+
+/// Shipped and random machines in TOML, mutated; bytes.
+fn toml(seed: u64, index: u64) -> Input {
+    let random = &mut Random::new(seed, index);
+    let mut model = match random.below(10) {
+        0 => bytes(random),
+        1 | 2 => random.pick(DRAWN).as_bytes().to_vec(),
+        _ => Drafting::new(random).write().into_bytes(),
+    };
+    for _ in 0..random.below(3) * (1 + random.below(2)) {
+        mutate(random, &mut model);
+    }
+    Input { language: Language::Toml, model, supplement: None }
+}
+
+fn padl(seed: u64, index: u64) -> Input {
     let random = &mut Random::new(seed, index);
     let (model, supplement) = match random.below(10) {
         0 => (soup(random).into_bytes(), Some(soup(random).into_bytes())),
@@ -34,7 +84,7 @@ pub fn input(seed: u64, index: u64) -> Input {
             (model.into_bytes(), Some(supplement.into_bytes()))
         }
     };
-    let mut input = Input { model, supplement };
+    let mut input = Input { language: Language::Padl, model, supplement };
     // A third of the inputs stay as they are: random programs must also be read when they are right.
     for _ in 0..random.below(3) * (1 + random.below(3)) {
         match (&mut input.supplement, random.one_in(3)) {

@@ -2,9 +2,10 @@
 //!
 //! With `--steps 2` accepted machines are compiled as well, with `--steps 3` they are inspected and run for some
 //! steps; without it only the model is tried.
+//! With `--language toml` the machines are in TOML.
 //! With `--show N` input N is printed instead. Ends with 1 if anything failed.
 
-use mainspring_fuzz::{Options, SLOW, Summary, input, run};
+use mainspring_fuzz::{Language, Options, SLOW, Summary, input, run};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -12,12 +13,12 @@ fn main() -> ExitCode {
     match parse(&arguments) {
         Err(message) => {
             eprintln!(
-                "{message}; expected [--inputs N] [--seed N] [--from N] [--threads N] [--steps N] [--show N]"
+                "{message}; expected [--language padl|toml] [--inputs N] [--seed N] [--from N] [--threads N] [--steps N] [--show N]"
             );
             ExitCode::from(2)
         }
         Ok((options, Some(index))) => {
-            let input = input(options.seed, index);
+            let input = input(options.language, options.seed, index);
             println!("{}", String::from_utf8_lossy(&input.model));
             println!("---- supplement\n{}", String::from_utf8_lossy(&input.supplement.unwrap_or_default()));
             ExitCode::SUCCESS
@@ -27,10 +28,20 @@ fn main() -> ExitCode {
 }
 
 fn parse(arguments: &[String]) -> Result<(Options, Option<u64>), String> {
-    let mut options = Options { seed: 1, from: 0, inputs: 20_000, threads: 2, steps: 1, patience: SLOW };
+    let language = Language::default();
+    let mut options =
+        Options { language, seed: 1, from: 0, inputs: 20_000, threads: 2, steps: 1, patience: SLOW };
     let mut show = None;
     for pair in arguments.chunks(2) {
         let [name, value] = pair else { return Err(format!("{} without a value", pair[0])) };
+        if name == "--language" {
+            options.language = match value.as_str() {
+                "padl" => Language::Padl,
+                "toml" => Language::Toml,
+                _ => return Err(format!("no language {value}")),
+            };
+            continue;
+        }
         let number: u64 = value.parse().map_err(|_| format!("{value} is not a number"))?;
         match name.as_str() {
             "--inputs" => options.inputs = number,

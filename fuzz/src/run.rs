@@ -1,6 +1,6 @@
 //! Running many inputs and collecting what goes wrong.
 
-use crate::input::{Input, input};
+use crate::input::{Input, Language, input};
 use crate::target::TARGETS;
 use mainspring_model::{Error, Machine};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 /// What to run.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
+    pub language: Language,
     pub seed: u64,
     /// First input and number of inputs.
     pub from: u64,
@@ -67,7 +68,7 @@ pub fn run(options: Options) -> Summary {
 fn run_share(options: Options, thread: u64, threads: u64) -> Summary {
     let mut summary = Summary::default();
     for index in (options.from..options.from + options.inputs).filter(|i| i % threads == thread) {
-        let given = input(options.seed, index);
+        let given = input(options.language, options.seed, index);
         let (mut time, outcome) = timed(&given, options.steps);
         // On a busy machine a short way may take long; a long one takes long again.
         for _ in 0..AGAIN {
@@ -111,7 +112,7 @@ enum Reached {
 
 fn try_input(input: &Input, steps: usize) -> Result<Reached, String> {
     let supplement = input.supplement.as_deref().map(|s| ("m.sup", s));
-    let machine = match Machine::parse("m.padl", &input.model, supplement) {
+    let machine = match Machine::parse(input.language.file(), &input.model, supplement) {
         Err(e) => return check_error(&e, input).map(|()| Reached::Parser),
         Ok(machine) => Arc::new(machine),
     };
@@ -127,7 +128,7 @@ fn try_input(input: &Input, steps: usize) -> Result<Reached, String> {
 fn check_error(error: &Error, input: &Input) -> Result<(), String> {
     let shown = error.to_string();
     let bytes = match error.file.as_str() {
-        "m.padl" => Some(&input.model),
+        "m.padl" | "m.toml" => Some(&input.model),
         "m.sup" => input.supplement.as_ref(),
         _ => None,
     };

@@ -1,33 +1,45 @@
 //! A short run of the fuzzer.
 
-use mainspring_fuzz::{Options, SLOW, input, run};
+use mainspring_fuzz::{Language, Options, SLOW, Summary, input, run};
 use std::time::Duration;
 
 /// Without optimization, on a busy machine.
 const PATIENCE: Duration = SLOW.saturating_mul(12);
 
-#[test]
-fn twenty_thousand_inputs() {
-    let summary =
-        run(Options { seed: 20_26, from: 0, inputs: 20_000, threads: 2, steps: 1, patience: PATIENCE });
+fn tried(language: Language, inputs: u64, steps: usize) -> Summary {
+    let options = Options { language, seed: 20_26, from: 0, inputs, threads: 2, steps, patience: PATIENCE };
+    let summary = run(options);
     let shown: Vec<String> = summary.failures.iter().map(|f| format!("{}: {}", f.index, f.what)).collect();
     assert!(shown.is_empty(), "{shown:#?}");
+    summary
+}
+
+#[test]
+fn twenty_thousand_inputs() {
+    let summary = tried(Language::Padl, 20_000, 1);
     // A fuzzer whose inputs are all refused at once, or all accepted, tries nothing.
     assert!((3_000..17_000).contains(&summary.accepted), "{} accepted", summary.accepted);
 }
 
 #[test]
+fn ten_thousand_inputs_in_toml() {
+    let summary = tried(Language::Toml, 10_000, 1);
+    assert!((1_500..8_500).contains(&summary.accepted), "{} accepted", summary.accepted);
+}
+
+#[test]
 fn inputs_do_not_change() {
-    assert_eq!(input(1, 7), input(1, 7));
-    assert_ne!(input(1, 7), input(1, 8));
-    assert_ne!(input(1, 7), input(2, 7));
+    for language in [Language::Padl, Language::Toml] {
+        assert_eq!(input(language, 1, 7), input(language, 1, 7));
+        assert_ne!(input(language, 1, 7), input(language, 1, 8));
+        assert_ne!(input(language, 1, 7), input(language, 2, 7));
+    }
 }
 
 #[test]
 fn a_few_machines_compiled() {
-    let summary =
-        run(Options { seed: 20_26, from: 0, inputs: 400, threads: 2, steps: 2, patience: PATIENCE });
-    let shown: Vec<String> = summary.failures.iter().map(|f| format!("{}: {}", f.index, f.what)).collect();
-    assert!(shown.is_empty(), "{shown:#?}");
-    assert!(summary.accepted > 30 && summary.accepted < summary.read, "{summary:?}");
+    for language in [Language::Padl, Language::Toml] {
+        let summary = tried(language, 400, 2);
+        assert!(summary.accepted > 30 && summary.accepted < summary.read, "{summary:?}");
+    }
 }

@@ -13,10 +13,21 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from mainspring._core import InputError as InputError
+    from mainspring.builder import Arc as Arc
+    from mainspring.builder import Builder as Builder
+    from mainspring.builder import Circle as Circle
+    from mainspring.builder import Close as Close
+    from mainspring.builder import Fixed as Fixed
+    from mainspring.builder import Layer as Layer
+    from mainspring.builder import Line as Line
+    from mainspring.builder import Path as Path
+    from mainspring.builder import Slides as Slides
+    from mainspring.builder import Turns as Turns
     from mainspring.machine import Machine as Machine
     from mainspring.machine import Mechanism as Mechanism
     from mainspring.machine import Parameter as Parameter
     from mainspring.machine import load as load
+    from mainspring.machine import parse as parse
     from mainspring.pairs import Kinematics as Kinematics
     from mainspring.pairs import Pair as Pair
     from mainspring.pairs import Subsystem as Subsystem
@@ -37,6 +48,17 @@ __version__ = "0.1.0"
 
 _HOME = {
     "InputError": "_core",
+    "parse": "machine",
+    "Arc": "builder",
+    "Builder": "builder",
+    "Circle": "builder",
+    "Close": "builder",
+    "Fixed": "builder",
+    "Layer": "builder",
+    "Line": "builder",
+    "Path": "builder",
+    "Slides": "builder",
+    "Turns": "builder",
     "Machine": "machine",
     "Mechanism": "machine",
     "Parameter": "machine",
@@ -59,25 +81,36 @@ _HOME = {
 }
 
 __all__ = [
+    "Arc",
+    "Builder",
+    "Circle",
+    "Close",
     "ConfigurationSpace",
     "Energy",
     "Event",
+    "Fixed",
     "Hypothesis",
     "InputError",
     "Kinematics",
+    "Layer",
+    "Line",
     "Machine",
     "Mechanism",
     "Pair",
     "Parameter",
+    "Path",
     "Pattern",
     "Prediction",
     "Simulation",
+    "Slides",
     "Subsystem",
     "Trajectory",
+    "Turns",
     "__version__",
     "configuration_space",
     "find_pairs",
     "load",
+    "parse",
     "predict",
     "simulate",
 ]

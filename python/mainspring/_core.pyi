@@ -9,13 +9,16 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["InputError", "Machine", "Mechanism", "Prediction", "Run", "Space", "load"]
+__all__ = ["InputError", "Machine", "Mechanism", "Prediction", "Run", "Space", "load", "parse"]
 
 class InputError(ValueError):
     """Bad input. `str(e)` is the whole line `FILE:LINE:COL: error: what, what was expected`."""
 
 def load(model: str, supplement: str | None = None) -> Machine:
     """Read a model file and its supplement (found beside the model by name when None)."""
+
+def parse(text: str, name: str) -> Machine:
+    """Read a machine from a text; the ending of the name, which errors show, says which language it is in."""
 
 @final
 class Machine:
@@ -24,7 +27,13 @@ class Machine:
     @property
     def name(self) -> str: ...
     def parameters_json(self) -> str:
-        """Return `[{"name", "value", "range": [lo, hi] | null}]` in the order of the text."""
+        """Return `[{"name", "value", "range", "whole", "unit", "meaning"}]` in the order of the text."""
+
+    def text_with(self, set: list[tuple[str, float]]) -> str:
+        """Return the file's text with new values of some parameters (TOML machines only)."""
+
+    def save(self, path: str, set: list[tuple[str, float]]) -> None:
+        """Write that text, whole or not at all."""
 
     def compile(self, set: list[tuple[str, float]], pair_clearance: float, keep_axial: bool) -> Mechanism:
         """Evaluate the shapes with these parameters and analyse them."""

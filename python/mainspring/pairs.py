@@ -141,6 +141,15 @@ class NearMiss:
 
 
 @dataclass(frozen=True)
+class Mark:
+    """A named value of a part's coordinate: radians, or the file's length."""
+
+    part: str
+    name: str
+    value: float
+
+
+@dataclass(frozen=True)
 class Kinematics(Result):
     """How a machine can move; lengths in the file's unit, `status` is `complete`."""
 
@@ -158,6 +167,7 @@ class Kinematics(Result):
     gravity: Point
     contact: Mapping[str, float]
     units: Mapping[str, Any]
+    marks: tuple[Mark, ...]
 
     def _sentences(self) -> Iterable[str]:
         return (
@@ -231,4 +241,5 @@ def find_pairs(mechanism: Mechanism) -> Kinematics:
         gravity=tuple(o["gravity"]),
         contact=frozen(o["contact"]),
         units=frozen(o["units"]),
+        marks=tuple(Mark(m["part"], m["name"], m["value"]) for m in o["marks"]),
     )

@@ -32,7 +32,7 @@ def _command(commands: "Commands[Parser]", name: str, help_: str, example: str, 
 
 def _machine(command: Parser) -> None:
     """Add what every command on a machine takes."""
-    command.add_argument("model", metavar="MODEL", help="model file (*.padl)")
+    command.add_argument("model", metavar="MODEL", help="model file (*.padl or *.toml)")
     add = command.add_argument_group("the machine").add_argument
     add("--supplement", metavar="FILE", help="supplement file (default: MODEL's name with .sup, beside it)")
     add("--set", metavar="NAME=VALUE", action="append", default=[], help="set a parameter; repeatable")

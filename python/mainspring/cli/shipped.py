@@ -32,7 +32,7 @@ def run(options: Namespace) -> None:
 
 def names() -> list[str]:
     """Return the names of the shipped machines, sorted."""
-    return sorted(p.name for p in _ROOT.iterdir() if any(p.glob("*.padl")))
+    return sorted(p.name for p in _ROOT.iterdir() if (p / f"{p.name}.toml").exists() or any(p.glob("*.padl")))
 
 
 def folder(name: str) -> Path:

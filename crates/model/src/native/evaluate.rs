@@ -116,9 +116,14 @@ impl Machine {
         }
         ends.sort_unstable();
         let value = |i: &usize| format!("{} = {}", self.parameters[*i].name, number(numbers[*i].re()));
-        let mut told: Vec<String> = ends.iter().take(CAUSES).map(value).collect();
-        if ends.len() > CAUSES {
-            told.push("…".to_string());
+        let (mut told, mut length) = (Vec::new(), 0);
+        for text in ends.iter().map(value) {
+            length += text.len();
+            if told.len() == CAUSES || length > CAUSE_BYTES {
+                told.push("…".to_string());
+                break;
+            }
+            told.push(text);
         }
         if told.is_empty() { String::new() } else { format!(" (with {})", told.join(", ")) }
     }
@@ -126,6 +131,8 @@ impl Machine {
 
 /// Parameters told in a message.
 const CAUSES: usize = 6;
+/// Bytes of that.
+const CAUSE_BYTES: usize = 90;
 
 fn union(first: u32, count: u32) -> Csg {
     let leaf = |i: u32| {
