@@ -154,7 +154,7 @@ def _components(space: ConfigurationSpace, colour: dict[str, str]) -> str:
         )
     inside = " and ".join(space.coordinates)
     heads = ("component", "copies in a turn", "winds", "boundary cycles", f"inside, at {inside}")
-    return section("Free space", table(heads, rows, (0, 1))) if rows else ""
+    return section("Free space", table(heads, rows, (0, 1), stack=False)) if rows else ""
 
 
 def _contacts(space: ConfigurationSpace, data: dict[str, Any]) -> str:
@@ -173,7 +173,7 @@ def _contacts(space: ConfigurationSpace, data: dict[str, Any]) -> str:
     heads = ("curve", f"feature of {a}", f"feature of {b}", "from", "to", "slope")
     more = len(data["curves"]) - len(rows)
     note = f"<p>And {more} more.</p>" if more else ""
-    return section("Contact curves", table(heads, rows, (0,)) + note) if rows else ""
+    return section("Contact curves", table(heads, rows, (0,), stack=False) + note) if rows else ""
 
 
 def _colophon(space: ConfigurationSpace) -> str:
