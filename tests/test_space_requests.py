@@ -1,4 +1,4 @@
-"""What a configuration space may be asked for: geared parts by their own angles, refusals with their reason."""
+"""What spaces may be asked for: geared parts by their own angles, refusals with their reason."""
 
 import math
 from pathlib import Path

@@ -13,6 +13,7 @@ from mainspring.drawing.space import Plot, Side, plot, said
 from mainspring.drawing.svg import STYLE, colours
 from mainspring.machine import Mechanism
 from mainspring.report.page import asset
+from mainspring.report.push import push
 from mainspring.report.sections import section
 from mainspring.report.words import coloured, escape, figure, position, table
 from mainspring.space import ConfigurationSpace
@@ -26,7 +27,8 @@ _MAP = (
     'aria-describedby="how"'
 )
 _HINT = (
-    '<p class="hint" id="how">Point at the map, or touch it, to put the machine there; a click holds it. '
+    '<p class="hint" id="how">Space pushes the first part; the other stays until touched and then yields. '
+    "Point at the map, or touch it, to put the machine there; a click holds it. "
     "With the map in focus arrows move (with Shift ten times as far), C goes to the nearest contact, S to "
     "the start, Escape lets go. What is nearest to touching is lit.</p>"
 )
@@ -40,19 +42,24 @@ def space_page(mechanism: Mechanism, space: ConfigurationSpace) -> str:
     shown = plot(data)
     marks = _Marks(outlines)
     curves = [_curve(c, marks) for c in data["curves"]]
-    dot = '<path class="toward" d=""/><circle class="near" r="4.5"/><circle class="here" r="5.5"/>'
+    lines = '<path class="trail" d=""/><path class="toward" d=""/>'
+    dot = lines + '<circle class="near" r="4.5"/><circle class="here" r="5.5"/>'
     drawn = space_picture(data, extra=dot, attributes=_MAP)
-    machine = picture(outlines, title=mechanism.name, poses=_poses(data, shown), extra=marks.drawn())
+    film = push(space)
+    # Springs would have to follow; in kinematics nothing pulls.
+    machine = picture(
+        {**outlines, "springs": []}, title=mechanism.name, poses=_poses(data, shown), extra=marks.drawn()
+    )
     body = (
         f'<header><p class="eyebrow">{escape(mechanism.name)}</p>{_headline(data, colour)}</header>'
         f'<div class="pair"><figure class="chart">{drawn}</figure>'
-        f'<figure class="stage">{machine}</figure></div>{_readout(data)}{_HINT}'
+        f'<figure class="stage">{machine}</figure></div>{_readout(data, film)}{_HINT}'
         + _components(space, colour)
         + _contacts(space, data)
         + _colophon(space)
     )
     return _document(
-        f"{mechanism.name}: {' and '.join(space.parts)}", body, _script_data(data, shown, curves)
+        f"{mechanism.name}: {' and '.join(space.parts)}", body, _script_data(data, shown, curves, film)
     )
 
 
@@ -116,8 +123,10 @@ def _headline(data: dict[str, Any], colour: dict[str, str]) -> str:
     return "".join(lines)
 
 
-def _readout(data: dict[str, Any]) -> str:
-    buttons = (
+def _readout(data: dict[str, Any], film: dict[str, Any] | None) -> str:
+    first = escape(data["coordinates"][0])
+    play = f'<button id="play" title="push {first} (Space)">▶ push {first}</button>' if film else ""
+    buttons = play + (
         '<button id="to-start" title="to the start (S)">start</button>'
         '<button id="to-contact" title="to the nearest contact (C)">nearest contact</button>'
     )
@@ -185,7 +194,9 @@ def _colophon(space: ConfigurationSpace) -> str:
     )
 
 
-def _script_data(data: dict[str, Any], shown: Plot, curves: list[dict[str, Any]]) -> str:
+def _script_data(
+    data: dict[str, Any], shown: Plot, curves: list[dict[str, Any]], film: dict[str, Any] | None
+) -> str:
     parts = {p["name"]: p for p in data["outlines"]["parts"]}
     chains = {name: [p["name"] for p in chain(parts, name)] for name in parts}
     sides = (shown.x, shown.y)
@@ -209,6 +220,7 @@ def _script_data(data: dict[str, Any], shown: Plot, curves: list[dict[str, Any]]
         "others": data["others"],
         "parts": data["parts"],
         "tiles": data["tiles"],
+        "film": film,
     }
     return json.dumps(made, separators=(",", ":"), ensure_ascii=False).replace("</", "<\\/")
 
