@@ -14,6 +14,7 @@ ALLOWED: dict[str, set[str]] = {
     "mainspring-geometry": set(),
     "mainspring-model": {"mainspring-geometry"},
     "mainspring-mechanism": {"mainspring-geometry", "mainspring-model"},
+    "mainspring-cspace": {"mainspring-geometry", "mainspring-model", "mainspring-mechanism"},
     "mainspring-dynamics": {"mainspring-geometry", "mainspring-model", "mainspring-mechanism"},
     "mainspring-behavior": {
         "mainspring-geometry",
@@ -25,6 +26,7 @@ ALLOWED: dict[str, set[str]] = {
         "mainspring-geometry",
         "mainspring-model",
         "mainspring-mechanism",
+        "mainspring-cspace",
         "mainspring-dynamics",
         "mainspring-behavior",
     },

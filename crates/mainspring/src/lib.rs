@@ -17,4 +17,4 @@ pub use mainspring_dynamics::Status;
 pub use mainspring_mechanism::{CompileOptions, Mechanism};
 pub use mainspring_model::{Error, Machine};
 pub use prediction::{PredictionResult, predict};
-pub use simulation::{SimulationOptions, SimulationResult, simulate};
+pub use simulation::{ContactSearch, SimulationOptions, SimulationResult, simulate};
