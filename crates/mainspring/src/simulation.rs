@@ -3,12 +3,32 @@
 use crate::contacts::contacts_json;
 use crate::options::check_simulation;
 use crate::words::{by_part, clean};
+use mainspring_cspace::MapSource;
 use mainspring_dynamics::{Event, EventKind, Options, Run, Simulation, Status, forces_at, kinetic};
-use mainspring_mechanism::{Mechanism, System};
+use mainspring_mechanism::{ContactSource, Mechanism, System};
 use mainspring_model::Error;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
 use std::time::Instant;
+
+/// Where a simulation gets the contacts that may close next. The motion is the same to the last bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactSearch {
+    /// Through trees of features, whenever asked.
+    #[default]
+    Direct,
+    /// From maps over the coordinates of each pair of bodies.
+    Map,
+}
+
+impl ContactSearch {
+    fn source<'a>(self, system: &'a System) -> Box<dyn ContactSource + 'a> {
+        match self {
+            Self::Direct => Box::new(system.direct_search()),
+            Self::Map => Box::new(MapSource::new(system)),
+        }
+    }
+}
 
 /// What `simulate` is asked to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,11 +42,19 @@ pub struct SimulationOptions {
     pub forces: bool,
     /// P_range_fraction of Algorithm 12: which kinetic-energy minima are listed.
     pub range_fraction: f64,
+    pub search: ContactSearch,
 }
 
 impl Default for SimulationOptions {
     fn default() -> Self {
-        Self { until: 1.0, rtol: 1e-8, max_steps: 10_000_000, forces: false, range_fraction: 1e-5 }
+        Self {
+            until: 1.0,
+            rtol: 1e-8,
+            max_steps: 10_000_000,
+            forces: false,
+            range_fraction: 1e-5,
+            search: ContactSearch::default(),
+        }
     }
 }
 
@@ -59,10 +87,10 @@ pub fn simulate(
 ) -> Result<SimulationResult, Error> {
     check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
-    let source = system.direct_search();
+    let source = options.search.source(&system);
     let limits = Options { until: options.until, rtol: options.rtol, max_steps: options.max_steps };
     let start = Instant::now();
-    let mut simulation = Simulation::new(&system, &source, limits);
+    let mut simulation = Simulation::new(&system, source.as_ref(), limits);
     simulation.run(progress);
     let wall_seconds = start.elapsed().as_secs_f64();
     let run = simulation.into_run();
