@@ -23,6 +23,6 @@ pub use mainspring_dynamics::Status;
 pub use mainspring_mechanism::{CompileOptions, Mechanism};
 pub use mainspring_model::{Error, Machine};
 pub use prediction::{PredictionResult, predict};
+pub use simulation::{ContactSearch, SimulationOptions, SimulationResult, simulate};
 pub use space::{Space, SpaceAxis, SpaceMark, SpaceWay, configuration_space};
 pub use space_request::SpaceRequest;
-pub use simulation::{ContactSearch, SimulationOptions, SimulationResult, simulate};
