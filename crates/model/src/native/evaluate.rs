@@ -3,6 +3,7 @@
 use super::{Acting, DriveText, MotionKindText, Native};
 use crate::error::{Error, Fault, Place, Read, number};
 use crate::expression::{Expression, NumOp};
+use crate::limits::PRIMITIVES;
 use crate::machine::Machine;
 use crate::profile::{EdgeText, LoopShape, LoopText, Profile};
 use crate::supplement::{
@@ -39,6 +40,13 @@ impl Machine {
             machine.parts[i].csg = union(first, texts.len() as u32);
             machine.parts[i].walls = Some(layers);
             machine.wall_texts.extend(texts);
+            if machine.primitive_count() > PRIMITIVES {
+                let message = format!(
+                    "the parts together have {} edges and primitives; expected at most {PRIMITIVES}",
+                    machine.primitive_count()
+                );
+                return Err(self.error(self.parts[i].place, message));
+            }
         }
         machine.supplement = self.named(supplement(&native, self, &values.numbers))?;
         Ok(machine)
