@@ -53,18 +53,15 @@ def main() -> None:
     models = [p for ending in ("padl", "toml") for p in (ROOT / "examples").glob(f"*/*.{ending}")]
     for model in sorted(p for p in models if p.stem == p.parent.name):
         model.with_suffix(".svg").write_text(machine_picture(model), encoding="utf-8")
-    for model in sorted((ROOT / "examples").glob("*/*.*")):
-        if model.suffix in (".padl", ".toml") and model.stem in SPACES:
+        if model.stem in SPACES:
             drawn = space_picture(model)
             model.with_name(f"{model.stem}-space.svg").write_text(drawn, encoding="utf-8")
-            if model.stem == "escapement":
-                (ROOT / "docs" / "pictures").mkdir(parents=True, exist_ok=True)
-                (ROOT / "docs" / "pictures" / "space.svg").write_text(drawn, encoding="utf-8")
     escapement = ROOT / "examples" / "escapement" / "escapement.padl"
     mechanism = ms.load(escapement).compile()
     folder = ROOT / "docs" / "pictures"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "escapement.svg").write_text(machine_picture(escapement), encoding="utf-8")
+    (folder / "space.svg").write_text(space_picture(escapement), encoding="utf-8")
     motion = motion_picture(mechanism, ms.predict(mechanism))
     (folder / "escapement-motion.svg").write_text(motion + "\n", encoding="utf-8")
 

@@ -32,6 +32,7 @@ def _model(folder):
 def _answer(folder, case) -> dict:
     changed = case.get("set", {})
     key = (folder.name, case.get("supplement"), case["command"], case.get("until"), *changed.items())
+    key += (*case.get("parts", ()), *case.get("slice", {}).items())
     if key not in _answers:
         supplement = folder / case["supplement"] if "supplement" in case else None
         mechanism = ms.load(_model(folder), supplement).compile(changed)
@@ -39,8 +40,11 @@ def _answer(folder, case) -> dict:
             "inspect": lambda: ms.find_pairs(mechanism),
             "simulate": lambda: ms.simulate(mechanism, case["until"]),
             "predict": lambda: ms.predict(mechanism),
+            "cspace": lambda: ms.configuration_space(mechanism, *case["parts"]),
         }[case["command"]]()
         _answers[key] = json.loads(made.to_json())
+        if "slice" in case:
+            _answers[key]["slices"] = [i._asdict() for i in made.slice(case["slice"])]
     return _answers[key]
 
 

@@ -13,6 +13,7 @@ import mainspring as ms
 from conftest import ESCAPEMENT, ROOT
 from mainspring.drawing.space import plot
 from mainspring.report import space_page
+from mainspring.report.push import push
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -134,11 +135,36 @@ def test_the_page_knows_what_lights(page, wheel):
     marks = [int(m) for m in re.findall(r'data-mark="(\d+)"', page)]
     assert marks == list(range(len(marks)))
     assert {m for c in data["curves"] for m in c["m"]} == set(marks)
+    assert {"ewheel's corner and lever's edge", "ewheel's edge and lever's corner"} <= {
+        c["t"] for c in data["curves"]
+    }
     assert [len(c["p"]) for c in data["curves"]] == [len(c.points) for c in wheel.curves]
     assert data["moves"] == {"ewheel": [0, 1.0], "lever": [1, 1.0]}
     assert data["tiles"][0]["part"] == "ewheel"
     assert data["tiles"][1] is None
     assert data["tiles"][0]["angle"] == pytest.approx(-math.pi / 5)
+
+
+def test_the_film_is_the_walk(page, wheel):
+    film = json.loads(re.search(r'id="space">(.*?)</script>', page, re.S)[1])["film"]
+    walk = wheel.walk(wheel.start, ewheel=2 * math.pi)
+    assert film["end"] == walk.end == "arrived"
+    assert film["points"][0] == list(wheel.start)
+    assert film["points"][-1] == pytest.approx(walk.stages[-1].end, abs=1e-4)
+    steps = np.diff(np.array(film["points"]), axis=0)
+    assert (steps[:, 0] >= -1e-9).all()
+    gaps = wheel.gap(np.array(film["points"])).gap
+    assert np.nanmin(gaps) > -1e-3, "the way lies in free space and on its walls, to the digits drawn"
+
+
+def test_a_start_in_a_corner_is_left_by_a_hair():
+    mechanism = ms.load(ROOT / "examples" / "ratchet" / "ratchet.padl").compile()
+    space = ms.configuration_space(mechanism, "wheel", "pawl")
+    assert space.component(space.start) is None
+    film = push(space)
+    assert film["end"] == "arrived"
+    assert film["points"][0] == pytest.approx(space.start, abs=0.05)
+    assert film["points"][-1][0] == pytest.approx(-2 * math.pi, abs=0.05)
 
 
 def test_the_page_is_reached_by_keyboard_and_told_in_words(page):

@@ -125,7 +125,7 @@ def test_the_wheel_follows_the_law_of_geneva(name):
     a, n, w = 50.0, {"geneva-four": 4, "geneva-six": 6}[name], math.radians(60)
     r, play = a * math.sin(math.pi / n), 0.02
     run = ms.simulate(mechanism, 3.0)
-    wheel = run.parts.index("wheel")
+    wheel = run.trajectory.parts.index("wheel")
     # While the pin pushes, from a little after it enters to the line of the axes.
     t = np.linspace((math.pi / 2 + math.pi / n) / w + 0.15, 3.0, 25)
     theta = w * t - math.pi

@@ -140,7 +140,7 @@ class Builder:
         value: Number,
         *,
         unit: str | None = None,
-        range: tuple[float, float] | None = None,  # noqa: A002
+        range: tuple[float, float] | None = None,
         whole: bool = False,
         meaning: str | None = None,
     ) -> None:
@@ -198,9 +198,7 @@ class Builder:
             said["limits"] = _given(low=limits[0], high=limits[1])
         self._new(self._parts, name, "\n".join(f"{k} = {_value(v)}" for k, v in said.items()))
 
-    def gear(
-        self, first: str, second: str, teeth: tuple[Number, Number], *, internal: bool = False
-    ) -> None:
+    def gear(self, first: str, second: str, teeth: tuple[Number, Number], *, internal: bool = False) -> None:
         """State that two parts mesh as gears with so many teeth."""
         said = {"parts": [first, second], "teeth": list(teeth)} | _given(internal=internal or None)
         self._gears.append(_inline(said))
@@ -216,10 +214,16 @@ class Builder:
         """Return the machine as the text of a TOML file."""
         head = _given(name=self.name, length=self.length, time=self.time, mass=self.mass)
         pieces = [_table("machine", {key: _value(value) for key, value in head.items()})]
-        for name, rows in (("parameters", self._parameters), ("solids", self._solids), ("world", self._world)):
+        for name, rows in (
+            ("parameters", self._parameters),
+            ("solids", self._solids),
+            ("world", self._world),
+        ):
             if rows:
                 pieces.append(_table(name, rows))
-        pieces += [f"[parts.{name}]\n{body}\n" if body else f"[parts.{name}]\n" for name, body in self._parts.items()]
+        pieces += [
+            f"[parts.{name}]\n{body}\n" if body else f"[parts.{name}]\n" for name, body in self._parts.items()
+        ]
         if self._gears:
             pieces.insert(0, "gears = [" + ", ".join(self._gears) + "]\n")
         return "\n".join(pieces)

@@ -1,6 +1,7 @@
 """Configuration spaces: where two parts are free, where blocked, and the contact curves between."""
 
 import json
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -189,10 +190,10 @@ class ConfigurationSpace(Result):
         names = {name.lower(): k for k, name in enumerate(self.coordinates)}
         if len(values) == 1:
             (name, value) = next(iter(values.items()))
-            if name.lower() in names:
+            if name.lower() in names and math.isfinite(value):
                 return names[name.lower()], float(value)
-        said = ", ".join(values) or "nothing"
-        raise ValueError(f"values of {said}; expected one of {' or '.join(self.coordinates)}")
+        said = ", ".join(f"{name} {value}" for name, value in values.items()) or "nothing"
+        raise ValueError(f"values of {said}; expected a finite one of {' or '.join(self.coordinates)}")
 
     def drawing_data(self) -> dict[str, Any]:
         """Return what a picture is drawn from: the JSON object, polygons of free space, outlines."""

@@ -19,7 +19,22 @@ pub(crate) struct Cuts {
     /// (element, u), for upright elements (element, v).
     pub at: Vec<(u32, f64)>,
     pub met: Vec<bool>,
-    portions: Vec<u32>,
+    portions: Vec<Portion>,
+}
+
+/// What of an element lies within a box, in a box of its own.
+#[derive(Clone, Copy)]
+struct Portion {
+    element: u32,
+    u: [f64; 2],
+    v: [f64; 2],
+}
+
+impl Portion {
+    fn apart(&self, other: &Portion) -> bool {
+        let apart = |a: [f64; 2], b: [f64; 2]| a[0] > b[1] + SAME || b[0] > a[1] + SAME;
+        apart(self.u, other.u) || apart(self.v, other.v)
+    }
 }
 
 /// Two graphs over a common range.
@@ -146,16 +161,20 @@ impl Cuts {
                     && element.u[1] >= ul - SAME
                     && low <= vr + SAME
                     && high >= vl - SAME;
-                if overlaps && within(catalogue, element, cell) {
-                    self.portions.push(k);
+                if overlaps {
+                    self.portions.extend(portion(catalogue, k, cell));
                 }
             }
         }
         self.met.resize(catalogue.elements.len(), false);
         for a in 0..self.portions.len() {
-            self.met[self.portions[a] as usize] = true;
+            let first = self.portions[a];
+            self.met[first.element as usize] = true;
             for b in a + 1..self.portions.len() {
-                self.pair(catalogue, self.portions[a], self.portions[b], cell);
+                let second = self.portions[b];
+                if !first.apart(&second) {
+                    self.pair(catalogue, first.element, second.element, cell);
+                }
             }
         }
     }
@@ -204,17 +223,21 @@ fn ranges_apart(a: (f64, f64), b: (f64, f64)) -> bool {
     a.0 > b.1 + SAME || b.0 > a.1 + SAME
 }
 
-/// Does the element pass the box? Monotone: its values at the ends of the common range tell.
-fn within(catalogue: &Catalogue, element: &Element, cell: &Cell) -> bool {
+/// What of the element passes the box, if any does. Monotone: its values at the ends of the common range tell.
+fn portion(catalogue: &Catalogue, k: u32, cell: &Cell) -> Option<Portion> {
+    let element = &catalogue.elements[k as usize];
     if element.is_upright() {
-        return true;
+        return Some(Portion { element: k, u: element.u, v: element.v });
     }
     let ((ul, ur), (vl, vr)) = (cell.range(0), cell.range(1));
     let eq = &catalogue.curves[element.pair as usize].eq;
-    let value = |u: f64, k: usize, inside: bool| {
-        if inside { element.v_at(eq, catalogue.frame, u) } else { element.v[k] }
+    let value = |u: f64, end: usize, inside: bool| {
+        if inside { (u, element.v_at(eq, catalogue.frame, u)) } else { (element.u[end], element.v[end]) }
     };
-    let a = value(ul, 0, element.u[0] < ul);
-    let b = value(ur, 1, element.u[1] > ur);
-    a.min(b) <= vr + SAME && a.max(b) >= vl - SAME
+    // A little wider than the box, as far as crossings are looked for.
+    let a = value(ul - SAME, 0, element.u[0] < ul - SAME);
+    let b = value(ur + SAME, 1, element.u[1] > ur + SAME);
+    let (low, high) = (a.1.min(b.1), a.1.max(b.1));
+    let passes = low <= vr + SAME && high >= vl - SAME;
+    passes.then_some(Portion { element: k, u: [a.0, b.0], v: [low, high] })
 }

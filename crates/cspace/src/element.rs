@@ -100,6 +100,7 @@ pub(crate) fn elements(
             }
         }
     }
+    flush(pair, eq, frame, scratch, out);
 }
 
 fn branches(roots: &Roots) -> impl Iterator<Item = f64> + use<> {
@@ -147,9 +148,9 @@ impl Graph<'_> {
         })
     }
 
-    /// v at an end, where `near` is v close by. At a fold the two roots are one; found as two they would have half the
+    /// v at an end, where `near` is v close by and `within` a position inside. At a fold the two roots are one; found as two they would have half the
     /// digits.
-    fn end(&self, u: f64, near: f64) -> f64 {
+    fn end(&self, u: f64, near: f64, within: f64) -> f64 {
         let axis = &self.frame.axes[1];
         let roots = self.eq.solve_v(&self.frame.moving, u);
         let at_fold = !roots.single && self.folds.iter().any(|f| (f - u).abs() <= LEAST);
@@ -159,9 +160,15 @@ impl Graph<'_> {
             (true, true) => roots.base + PI,
             _ => roots.root(self.branch),
         };
-        let v = axis.nearest(v, near);
-        // Without a root (a body on its own axis) what is close by is as good.
+        let v = axis.nearest(if v.is_finite() { v } else { self.limit(u, within) }, near);
         (if v.is_finite() { v } else { near }).clamp(axis.start, axis.end())
+    }
+
+    /// The limit of v at u where the equation holds for every v, by a parabola through three positions inside.
+    fn limit(&self, u: f64, within: f64) -> f64 {
+        let h = (1e-4 * (within - u).signum()).clamp(-0.1 * (within - u).abs(), 0.1 * (within - u).abs());
+        let v = |k: f64| self.eq.solve_v(&self.frame.moving, u + k * h).root(self.branch);
+        3.0 * v(1.0) - 3.0 * v(2.0) + v(3.0)
     }
 }
 
@@ -169,7 +176,7 @@ impl Graph<'_> {
 /// doubt.
 fn graph(g: &Graph, [a, b]: [f64; 2], v: f64, out: &mut Vec<Element>, halvings: u32) {
     let middle = 0.5 * (a + b);
-    let [va, vb] = [a, b].map(|u| g.end(u, g.follow(middle, v, u)));
+    let [va, vb] = [a, b].map(|u| g.end(u, g.follow(middle, v, u), middle));
     if (va - vb).abs() > 3.0 && g.frame.axes[1].turns && halvings > 0 {
         for part in [[a, middle], [middle, b]] {
             let inner = 0.5 * (part[0] + part[1]);
@@ -182,23 +189,51 @@ fn graph(g: &Graph, [a, b]: [f64; 2], v: f64, out: &mut Vec<Element>, halvings: 
     out.push(Element { pair: g.pair, branch: g.branch, u: [a, b], v: [va, vb] });
 }
 
+/// An equation that never depends on v.
 fn upright(pair: u32, eq: &Equation, frame: &Frame, scratch: &mut Scratch, out: &mut Vec<Element>) {
-    let (m, [au, av]) = (&frame.moving, &frame.axes);
     let mut positions = Vec::new();
-    limits::level(eq, m, av.start, &mut positions);
+    limits::level(eq, &frame.moving, frame.axes[1].start, &mut positions);
     positions.sort_by(f64::total_cmp);
     positions.dedup_by(|b, a| *b - *a < LEAST);
     for u in positions {
-        let Some(u) = au.place(u, 0.0) else { continue };
-        scratch.raw.clear();
-        limits::upright_ends(eq, m, u, &mut scratch.raw);
-        scratch.sort(av);
-        for k in 1..scratch.critical.len() {
-            let (a, b) = (scratch.critical[k - 1], scratch.critical[k]);
-            let poses = [m[0].place(u), m[1].place(0.5 * (a + b))];
-            if b - a >= LEAST && eq.margin(&poses, frame.size) >= -MARGIN {
-                out.push(Element { pair, branch: 0.0, u: [u, u], v: [a, b] });
-            }
+        upright_at(pair, eq, frame, u, scratch, out);
+    }
+}
+
+/// Positions u at which an equation that depends on v elsewhere holds for every v: a part turns flush with the slide of the
+/// other.
+fn flush(pair: u32, eq: &Equation, frame: &Frame, scratch: &mut Scratch, out: &mut Vec<Element>) {
+    let axis = &frame.axes[1];
+    let holds = |u: f64| {
+        let at = |part: f64| eq.value(&frame.moving, u, axis.start + part * axis.length).f.abs();
+        [0.0, 0.37, 0.71].into_iter().all(|part| at(part) <= 1e-11 * frame.size)
+    };
+    let folds: Vec<f64> = scratch.folds.iter().copied().filter(|&u| holds(u)).collect();
+    for (i, &u) in folds.iter().enumerate() {
+        if folds[..i].iter().all(|f| (f - u).abs() > LEAST) {
+            upright_at(pair, eq, frame, u, scratch, out);
+        }
+    }
+}
+
+fn upright_at(
+    pair: u32,
+    eq: &Equation,
+    frame: &Frame,
+    u: f64,
+    scratch: &mut Scratch,
+    out: &mut Vec<Element>,
+) {
+    let (m, [au, av]) = (&frame.moving, &frame.axes);
+    let Some(u) = au.place(u, 0.0) else { return };
+    scratch.raw.clear();
+    limits::upright_ends(eq, m, u, &mut scratch.raw);
+    scratch.sort(av);
+    for k in 1..scratch.critical.len() {
+        let (a, b) = (scratch.critical[k - 1], scratch.critical[k]);
+        let poses = [m[0].place(u), m[1].place(0.5 * (a + b))];
+        if b - a >= LEAST && eq.margin(&poses, frame.size) >= -MARGIN {
+            out.push(Element { pair, branch: 0.0, u: [u, u], v: [a, b] });
         }
     }
 }

@@ -20,6 +20,8 @@ pub enum SpaceError {
     Window { coordinate: String, reason: &'static str },
     /// An outline or a position is not made of finite numbers.
     NotFinite { body: String },
+    /// A body thinner than 1e-9 of the machine's size.
+    Thin { body: String },
     /// More cells, curves or crossings than `SpaceOptions::budget` allows.
     TooComplex { budget: usize },
     /// Free and blocked could not be told apart consistently here (joint coordinates as asked for): contacts
@@ -45,6 +47,9 @@ impl fmt::Display for SpaceError {
             }
             Self::Window { coordinate, reason } => write!(f, "window of {coordinate}: {reason}"),
             Self::NotFinite { body } => write!(f, "{body}: outline or position is not finite"),
+            Self::Thin { body } => {
+                write!(f, "{body} is thinner than a billionth of the machine: what it blocks cannot be told")
+            }
             Self::TooComplex { budget } => {
                 write!(f, "more than {budget} cells, curves or crossings; a smaller window may do")
             }

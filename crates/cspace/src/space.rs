@@ -218,6 +218,9 @@ impl Made<'_> {
     fn finish(self, budget: usize) -> Result<ConfigurationSpace, SpaceError> {
         let size = self.frame.size;
         let witnesses = Witnesses::new(&self.regions, size);
+        if let Some(k) = witnesses.thin() {
+            return Err(SpaceError::Thin { body: self.system.bodies[self.reduced.bodies[k]].name.clone() });
+        }
         let levers =
             [0, 1].map(|k| self.parts[k].iter().map(|p| p.lever).fold(1e-3 * size.min(1.0), f64::max));
         let kind = |i: usize, j: usize| self.contact.kind(i, j);

@@ -2,6 +2,7 @@
 
 use crate::moving::Moving;
 use crate::region::{Regions, Section};
+use crate::span::Span;
 use crate::tree::Discs;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
@@ -18,7 +19,12 @@ struct Inside {
     tree: Discs,
     /// Greatest radius under each node.
     greatest: Vec<f64>,
+    /// Is there hardly any material behind a straight side?
+    thin: bool,
 }
+
+/// A straight side with less material behind it than this (relative to the size) belongs to a body too thin to map.
+const THIN: f64 = 1e-9;
 
 /// Discs inside all sections of both bodies.
 #[derive(Clone, Debug)]
@@ -30,12 +36,14 @@ pub(crate) struct Witnesses {
 impl Inside {
     fn new(section: &Section, size: f64) -> Self {
         let total: f64 = section.spans.iter().map(|s| s.length()).sum();
-        let mut discs = Vec::new();
+        let (mut discs, mut thin) = (Vec::new(), false);
         for (span, convex) in section.spans.iter().zip(section.convex()) {
             let count = 1 + (SAMPLES * span.length() / total).min(SAMPLES) as usize;
-            discs.extend(
-                span.samples(count, *convex).into_iter().filter_map(|(p, n)| grow(section, p, n, size)),
-            );
+            let grown = span.samples(count, *convex).into_iter().map(|(p, n)| grow(section, p, n, size));
+            let side = matches!(span, Span::Line { .. }) && span.length() > 1e-6 * size;
+            let start = discs.len();
+            discs.extend(grown.flatten());
+            thin |= side && discs[start..].iter().all(|d| d.1 < 0.5 * THIN * size);
         }
         let centers: Vec<_> = discs.iter().map(|d| (d.0, 0.0)).collect();
         let tree = Discs::new(&centers);
@@ -49,7 +57,7 @@ impl Inside {
                 f64::max(a, b)
             };
         }
-        Inside { discs, tree, greatest }
+        Inside { discs, tree, greatest, thin }
     }
 }
 
@@ -75,6 +83,11 @@ impl Witnesses {
         let all = |k: usize| regions.sections[k].iter().map(|s| Inside::new(s, size)).collect();
         let facing = regions.facing.iter().map(|f| (f.0, f.1)).collect();
         Witnesses { inside: [all(0), all(1)], facing }
+    }
+
+    /// The body (0 or 1) that is too thin to map, if any.
+    pub fn thin(&self) -> Option<usize> {
+        (0..2).find(|&k| self.inside[k].iter().any(|i| i.thin))
     }
 
     /// Is every configuration within half widths `half` of these poses surely blocked? A disc's centre moves by at most

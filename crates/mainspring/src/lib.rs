@@ -27,6 +27,6 @@ pub use mainspring_dynamics::Status;
 pub use mainspring_mechanism::{CompileOptions, ContactLaw, Mechanism};
 pub use mainspring_model::{Error, Machine};
 pub use prediction::{PredictionOptions, PredictionResult, predict};
-pub use simulation::{SimulationOptions, SimulationResult, simulate};
+pub use simulation::{ContactSearch, SimulationOptions, SimulationResult, simulate};
 pub use space::{Space, SpaceAxis, SpaceMark, SpaceWay, configuration_space};
 pub use space_request::SpaceRequest;

@@ -4,14 +4,34 @@ use crate::contact_model::{ContactChoice, constants};
 use crate::contacts::contacts_json;
 use crate::options::check_simulation;
 use crate::words::{by_part, clean};
+use mainspring_cspace::MapSource;
 use mainspring_dynamics::{
     Contact, Event, EventKind, Mode, Options, Run, Status, compliant_forces_at, forces_at, kinetic, start,
 };
-use mainspring_mechanism::{Mechanism, System};
+use mainspring_mechanism::{ContactSource, Mechanism, System};
 use mainspring_model::Error;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
 use std::time::Instant;
+
+/// Where a simulation gets the contacts that may close next. The motion is the same to the last bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactSearch {
+    /// Through trees of features, whenever asked.
+    #[default]
+    Direct,
+    /// From maps over the coordinates of each pair of bodies.
+    Map,
+}
+
+impl ContactSearch {
+    fn source<'a>(self, system: &'a System) -> Box<dyn ContactSource + 'a> {
+        match self {
+            Self::Direct => Box::new(system.direct_search()),
+            Self::Map => Box::new(MapSource::new(system)),
+        }
+    }
+}
 
 /// What `simulate` is asked to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +44,7 @@ pub struct SimulationOptions {
     pub forces: bool,
     /// P_range_fraction of Algorithm 12: which kinetic-energy minima are listed.
     pub range_fraction: f64,
+    pub search: ContactSearch,
 }
 
 impl Default for SimulationOptions {
@@ -34,6 +55,7 @@ impl Default for SimulationOptions {
             max_steps: 10_000_000,
             forces: false,
             range_fraction: 1e-5,
+            search: ContactSearch::default(),
         }
     }
 }
@@ -68,11 +90,11 @@ pub fn simulate(
 ) -> Result<SimulationResult, Error> {
     check_simulation(options)?;
     let system = Arc::new(mechanism.system()?);
-    let source = system.direct_search();
+    let source = options.search.source(&system);
     let (contact, rtol) = options.contact.resolve(&system)?;
     let limits = Options { until: options.until, rtol, max_steps: options.max_steps };
     let clock = Instant::now();
-    let mut engine = start(&system, &source, contact, limits);
+    let mut engine = start(&system, source.as_ref(), contact, limits);
     while engine.advance().is_none() && progress(engine.now().0) {}
     let wall_seconds = clock.elapsed().as_secs_f64();
     let run = engine.finish();

@@ -217,6 +217,8 @@ pub(crate) fn told(error: &SpaceError, axes: &[SpaceAxis; 2], names: [&str; 2]) 
                 ),
             )
         }
+        SpaceError::Thin { .. } => ("cspace", format!("{error}; expected parts of some width")),
+        SpaceError::NotFinite { .. } => ("cspace", format!("{error}; expected finite numbers")),
         other => ("cspace", format!("{other}; expected two parts that move independently")),
     };
     Error { file: option.into(), line: 1, column: 1, message }

@@ -93,8 +93,9 @@ impl ContactSource for DirectSearch<'_> {
     }
 }
 
-/// A lower bound of the distance between two features: exact between a round feature and an edge.
-fn feature_distance(kind: GapKind, a: &Feature, b: &Feature, relative: &Pose) -> f64 {
+/// A lower bound of the distance between two features, the first body seen from the second at `relative`: exact between
+/// a round feature and an edge.
+pub fn feature_distance(kind: GapKind, a: &Feature, b: &Feature, relative: &Pose) -> f64 {
     let discs = (relative.apply(a.center) - b.center).norm() - a.radius - b.radius;
     let (ra, rb) = (a.shape.radius(), b.shape.radius());
     let (ca, cb) = (relative.apply(a.shape.anchor()), b.shape.anchor());

@@ -46,7 +46,7 @@ fn a_machine_says_what_its_file_says() {
     assert_eq!(stated.marks[0].value, 135.0);
     // Two arcs and a pin; four pieces of six edges.
     assert_eq!(machine.primitive_count(), 3 + 24);
-    assert_eq!(at(&machine, &[("slots", 6.0)]).unwrap().primitive_count(), 3 + 36);
+    assert_eq!(at(&machine, &[("slots", 6.0), ("lock", 17.0)]).unwrap().primitive_count(), 3 + 36);
 }
 
 #[test]

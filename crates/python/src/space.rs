@@ -19,7 +19,10 @@ type Rows<'py> = Bound<'py, PyArray2<f64>>;
 pub fn make(py: Python<'_>, mechanism: &Mechanism, request: SpaceRequest) -> PyResult<PySpace> {
     let (send, mut receive) = mpsc::channel();
     let mechanism = mechanism.clone();
-    std::thread::spawn(move || send.send(configuration_space(&mechanism, &request)));
+    std::thread::spawn(move || {
+        // Nobody listens any more after Ctrl-C.
+        let _ = send.send(Box::new(configuration_space(&mechanism, &request)));
+    });
     loop {
         let waited = py.detach(move || (receive.recv_timeout(LOOK), receive));
         receive = waited.1;
@@ -88,7 +91,6 @@ impl PySpace {
     }
 
     /// Gaps `(n,)` and indices of the features at the nearest contact, `(n, 2)`; NaN and -1 where there is none.
-    #[expect(clippy::type_complexity, reason = "two arrays")]
     fn gap<'py>(
         &self,
         py: Python<'py>,
@@ -167,7 +169,6 @@ impl PySpace {
     }
 
     /// Along a curve at fractions `(n,)`: at `(n, 2)`, ratio `(n,)`, derivatives, pressure angles, point, normal `(n, 2)`.
-    #[expect(clippy::type_complexity, reason = "six arrays")]
     fn transmission<'py>(
         &self,
         py: Python<'py>,

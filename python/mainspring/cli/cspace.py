@@ -221,6 +221,8 @@ def _state(space: ConfigurationSpace, point: tuple[float, float], words: _Words)
     """Say whether a configuration is free, in which component, and what is nearest."""
     gap, component = space.gap(point), space.component(point)
     state = "blocked or in contact" if component is None else f"free, component {component}"
+    if any(not a.period and not a.low <= v <= a.high for a, v in zip(space.domain, point, strict=True)):
+        state = "outside the map"
     features = _named(space, gap.features)
     nearest = (
         f"; gap {tables.signed(gap.gap)}, {' – '.join(map(words.feature, features))}" if features else ""

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from mainspring.drawing import picture, space_picture
-from mainspring.drawing.feature import kind_told, marked, told
+from mainspring.drawing.feature import kind_told, marked
 from mainspring.drawing.palette import variables
 from mainspring.drawing.pose import chain
 from mainspring.drawing.space import STYLE as MAP_STYLE
@@ -13,6 +13,7 @@ from mainspring.drawing.space import Plot, Side, plot, said
 from mainspring.drawing.svg import STYLE, colours
 from mainspring.machine import Mechanism
 from mainspring.report.page import asset
+from mainspring.report.push import push
 from mainspring.report.sections import section
 from mainspring.report.words import coloured, escape, figure, position, table
 from mainspring.space import ConfigurationSpace
@@ -26,7 +27,8 @@ _MAP = (
     'aria-describedby="how"'
 )
 _HINT = (
-    '<p class="hint" id="how">Point at the map, or touch it, to put the machine there; a click holds it. '
+    '<p class="hint" id="how">Space pushes the first part; the other stays until touched and then yields. '
+    "Point at the map, or touch it, to put the machine there; a click holds it. "
     "With the map in focus arrows move (with Shift ten times as far), C goes to the nearest contact, S to "
     "the start, Escape lets go. What is nearest to touching is lit.</p>"
 )
@@ -40,19 +42,24 @@ def space_page(mechanism: Mechanism, space: ConfigurationSpace) -> str:
     shown = plot(data)
     marks = _Marks(outlines)
     curves = [_curve(c, marks) for c in data["curves"]]
-    dot = '<path class="toward" d=""/><circle class="near" r="4.5"/><circle class="here" r="5.5"/>'
+    lines = '<path class="trail" d=""/><path class="toward" d=""/>'
+    dot = lines + '<circle class="near" r="4.5"/><circle class="here" r="5.5"/>'
     drawn = space_picture(data, extra=dot, attributes=_MAP)
-    machine = picture(outlines, title=mechanism.name, poses=_poses(data, shown), extra=marks.drawn())
+    film = push(space)
+    # Springs would have to follow; in kinematics nothing pulls.
+    machine = picture(
+        {**outlines, "springs": []}, title=mechanism.name, poses=_poses(data, shown), extra=marks.drawn()
+    )
     body = (
         f'<header><p class="eyebrow">{escape(mechanism.name)}</p>{_headline(data, colour)}</header>'
         f'<div class="pair"><figure class="chart">{drawn}</figure>'
-        f'<figure class="stage">{machine}</figure></div>{_readout(data)}{_HINT}'
+        f'<figure class="stage">{machine}</figure></div>{_readout(data, film)}{_HINT}'
         + _components(space, colour)
         + _contacts(space, data)
         + _colophon(space)
     )
     return _document(
-        f"{mechanism.name}: {' and '.join(space.parts)}", body, _script_data(data, shown, curves)
+        f"{mechanism.name}: {' and '.join(space.parts)}", body, _script_data(data, shown, curves, film)
     )
 
 
@@ -74,10 +81,6 @@ class _Marks:
                 self._paths.append((feature["part"], path))
         return self._known[key]
 
-    def words(self, feature: dict[str, Any]) -> str:
-        """Say which feature it is."""
-        return told(self._parts, feature)
-
     def drawn(self) -> str:
         """Return all marks, hidden, grouped by the part they move with."""
         return "".join(
@@ -87,13 +90,13 @@ class _Marks:
 
 
 def _curve(curve: dict[str, Any], marks: _Marks) -> dict[str, Any]:
-    """Return what the script needs of a curve: points, marks to light, words."""
+    """Return what the script needs of a curve: points, marks to light, words true of all its copies."""
     points = [[float(f"{x:.{_DIGITS}g}") for x in p] for p in curve["points"]]
     features = curve["features"]
     return {
         "p": points,
         "m": [marks.add(f) for f in features],
-        "t": " and ".join(marks.words(f) for f in features),
+        "t": " and ".join(f"{f['part']}'s {f['kind']}" for f in features),
     }
 
 
@@ -120,8 +123,10 @@ def _headline(data: dict[str, Any], colour: dict[str, str]) -> str:
     return "".join(lines)
 
 
-def _readout(data: dict[str, Any]) -> str:
-    buttons = (
+def _readout(data: dict[str, Any], film: dict[str, Any] | None) -> str:
+    first = escape(data["coordinates"][0])
+    play = f'<button id="play" title="push {first} (Space)">▶ push {first}</button>' if film else ""
+    buttons = play + (
         '<button id="to-start" title="to the start (S)">start</button>'
         '<button id="to-contact" title="to the nearest contact (C)">nearest contact</button>'
     )
@@ -158,7 +163,7 @@ def _components(space: ConfigurationSpace, colour: dict[str, str]) -> str:
         )
     inside = " and ".join(space.coordinates)
     heads = ("component", "copies in a turn", "winds", "boundary cycles", f"inside, at {inside}")
-    return section("Free space", table(heads, rows, (0, 1))) if rows else ""
+    return section("Free space", table(heads, rows, (0, 1), stack=False)) if rows else ""
 
 
 def _contacts(space: ConfigurationSpace, data: dict[str, Any]) -> str:
@@ -177,7 +182,7 @@ def _contacts(space: ConfigurationSpace, data: dict[str, Any]) -> str:
     heads = ("curve", f"feature of {a}", f"feature of {b}", "from", "to", "slope")
     more = len(data["curves"]) - len(rows)
     note = f"<p>And {more} more.</p>" if more else ""
-    return section("Contact curves", table(heads, rows, (0,)) + note) if rows else ""
+    return section("Contact curves", table(heads, rows, (0,), stack=False) + note) if rows else ""
 
 
 def _colophon(space: ConfigurationSpace) -> str:
@@ -189,7 +194,9 @@ def _colophon(space: ConfigurationSpace) -> str:
     )
 
 
-def _script_data(data: dict[str, Any], shown: Plot, curves: list[dict[str, Any]]) -> str:
+def _script_data(
+    data: dict[str, Any], shown: Plot, curves: list[dict[str, Any]], film: dict[str, Any] | None
+) -> str:
     parts = {p["name"]: p for p in data["outlines"]["parts"]}
     chains = {name: [p["name"] for p in chain(parts, name)] for name in parts}
     sides = (shown.x, shown.y)
@@ -213,6 +220,7 @@ def _script_data(data: dict[str, Any], shown: Plot, curves: list[dict[str, Any]]
         "others": data["others"],
         "parts": data["parts"],
         "tiles": data["tiles"],
+        "film": film,
     }
     return json.dumps(made, separators=(",", ":"), ensure_ascii=False).replace("</", "<\\/")
 

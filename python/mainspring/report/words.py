@@ -38,10 +38,12 @@ def position(value: float, motion: str) -> str:
     return f"{figure(round(math.degrees(value), 2))}°" if motion == "turn" else figure(value, 5)
 
 
-def table(heads: Sequence[str], rows: Iterable[Sequence[str]], numeric: Iterable[int] = ()) -> str:
+def table(
+    heads: Sequence[str], rows: Iterable[Sequence[str]], numeric: Iterable[int] = (), *, stack: bool = True
+) -> str:
     """Return a table; cells are HTML already, `numeric` columns are set right.
 
-    Tables of more than three columns stack their cells on narrow screens.
+    Tables of more than three columns stack their cells on narrow screens, or scroll without `stack`.
     """
     right = set(numeric)
     kinds = [' class="n"' if i in right else "" for i in range(len(heads))]
@@ -50,7 +52,7 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], numeric: Iterable
         "<tr>" + "".join(f"<td{k}>{c}</td>" for c, k in zip(row, kinds, strict=True)) + "</tr>"
         for row in rows
     )
-    kind = ' class="stack"' if len(heads) > 3 else ""
+    kind = ' class="stack"' if stack and len(heads) > 3 else ""
     return (
         f'<div class="scroll"><table{kind}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
     )

@@ -114,18 +114,26 @@ impl Mechanism {
         let Some(inertia) = inertia.or((!turns).then_some(0.0)) else {
             let name = &self.parts[part].name;
             let message = format!(
-                "{name} turns with its carrier, and its moment of inertia about its centre of mass is not known; expected a density or `MASS {name} mass x y z inertia`"
+                "{name} turns with its carrier, and its moment of inertia about its centre of mass is not known; expected {}",
+                self.mass_line(part, " inertia")
             );
             return self.fail(part, message);
         };
         Ok((mass, self.in_plane(center.unwrap_or_default()), inertia))
     }
 
+    /// What gives a part a mass, in the words of the machine's file.
+    fn mass_line(&self, part: usize, more: &str) -> String {
+        if self.machine.is_toml() {
+            return "a `density`, or `mass` with a centre".to_string();
+        }
+        format!("a density or `MASS {} mass x y z{more}`", self.parts[part].name)
+    }
+
     fn unknown_mass<T>(&self, part: usize, why: &str, what: &str) -> Result<T, Error> {
         let name = &self.parts[part].name;
-        let message = format!(
-            "{name} {why}, and its {what} are not known; expected a density or `MASS {name} mass x y z`"
-        );
+        let message =
+            format!("{name} {why}, and its {what} are not known; expected {}", self.mass_line(part, ""));
         self.fail(part, message)
     }
 

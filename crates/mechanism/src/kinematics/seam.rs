@@ -120,10 +120,12 @@ impl Mechanism {
         let moves = part.joint.is_some_and(|j| self.pairs[j].kind != PairKind::Fixed);
         match part.inertia {
             None if moves => {
-                let message = format!(
-                    "the inertia of {} is not known; expected a line of the supplement or a density",
-                    part.name
-                );
+                let expected = if self.machine.is_toml() {
+                    "`inertia`, `mass` or `density`"
+                } else {
+                    "a line of the supplement or a density"
+                };
+                let message = format!("the inertia of {} is not known; expected {expected}", part.name);
                 self.fail(i, message)
             }
             Some(inertia) if !(inertia > 0.0 && inertia.is_finite()) => {

@@ -3,6 +3,7 @@
 use super::{Acting, DriveText, MotionKindText, Native};
 use crate::error::{Error, Fault, Place, Read, number};
 use crate::expression::{Expression, NumOp};
+use crate::limits::PRIMITIVES;
 use crate::machine::Machine;
 use crate::profile::{EdgeText, LoopShape, LoopText, Profile};
 use crate::supplement::{
@@ -32,13 +33,20 @@ impl Machine {
         machine.wall_texts.clear();
         for (i, profile) in native.profiles.iter().enumerate() {
             let Some(profile) = profile else { continue };
-            let drawn = self.explained(profile, &values.numbers, profile.draw(&values.numbers))?;
-            self.explained(profile, &values.numbers, profile.check(&drawn))?;
+            let drawn = self.explained(profile, &values.numbers, false, profile.draw(&values.numbers))?;
+            self.explained(profile, &values.numbers, true, profile.check(&drawn))?;
             let first = machine.primitive_count() as u32;
             let (layers, texts) = profile.walls(&drawn, first);
             machine.parts[i].csg = union(first, texts.len() as u32);
             machine.parts[i].walls = Some(layers);
             machine.wall_texts.extend(texts);
+            if machine.primitive_count() > PRIMITIVES {
+                let message = format!(
+                    "the parts together have {} edges and primitives; expected at most {PRIMITIVES}",
+                    machine.primitive_count()
+                );
+                return Err(self.error(self.parts[i].place, message));
+            }
         }
         machine.supplement = self.named(supplement(&native, self, &values.numbers))?;
         Ok(machine)
@@ -53,7 +61,7 @@ impl Machine {
         let Some(native) = &self.native else { return Ok(()) };
         for profile in native.profiles.iter().flatten() {
             let walls = profile.primitives(numbers);
-            primitives.extend(self.explained(profile, numbers, walls)?);
+            primitives.extend(self.explained(profile, numbers, false, walls)?);
         }
         Ok(())
     }
@@ -77,8 +85,15 @@ impl Machine {
         self.named(found).map(Some)
     }
 
-    /// Adds to an error about a boundary which part, loop and segment it is about, and the parameters behind it.
-    fn explained<T, S: Scalar>(&self, profile: &Profile, numbers: &[S], result: Read<T>) -> Result<T, Error> {
+    /// Adds to an error about a boundary which part, loop and segment it is about, and the parameters behind it: those
+    /// of the segment, or of its `whole` loop.
+    fn explained<T, S: Scalar>(
+        &self,
+        profile: &Profile,
+        numbers: &[S],
+        whole: bool,
+        result: Read<T>,
+    ) -> Result<T, Error> {
         result.map_err(|fault| {
             let mut message = fault.message;
             let used = match find(profile, fault.place) {
@@ -88,7 +103,7 @@ impl Machine {
                             .map_or(String::new(), |(i, e)| format!(", segment {} ({})", i + 1, e.word()));
                         message = format!("part {}, {}{at}: {message}", profile.part, l.name);
                     }
-                    around(l, edge.map(|e| e.0))
+                    around(l, edge.map(|e| e.0).filter(|_| !whole))
                 }
                 None => profile.layers.iter().flat_map(|l| l.z.iter().flatten()).collect(),
             };

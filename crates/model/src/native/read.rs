@@ -63,12 +63,10 @@ fn head(root: &Fields<'_>) -> Read<(String, Units)> {
 }
 
 fn annotate(machine: &mut Machine, notes: &[ParameterNote]) {
-    for note in notes {
-        if let Some(i) = machine.parameter_index(&note.name) {
-            let parameter = &mut machine.parameters[i];
-            parameter.whole = note.whole;
-            (parameter.unit, parameter.meaning) = (note.unit.clone(), note.meaning.clone());
-        }
+    // Parameters stand in the order of their definitions, and only they are numbers.
+    for (parameter, note) in machine.parameters.iter_mut().zip(notes) {
+        parameter.whole = note.whole;
+        (parameter.unit, parameter.meaning) = (note.unit.clone(), note.meaning.clone());
     }
     machine.find_defaults();
 }

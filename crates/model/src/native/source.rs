@@ -7,17 +7,31 @@ use toml_edit::{Document, Value};
 /// Size of a TOML file in bytes: 2 MiB. Every value keeps the space around it, so the limit is lower than that of PADL.
 pub(crate) const TOML_BYTES: usize = 2 * 1024 * 1024;
 
+/// Characters that begin in a piece of UTF-8.
+fn begun(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|b| **b & 0xc0 != 0x80).count()
+}
+
 /// A text with the places of its bytes.
 pub(crate) struct Source<'a> {
     pub text: &'a str,
     /// Where each line begins.
     lines: Vec<usize>,
+    /// Characters before each block of bytes, so that places on long lines cost no more than others.
+    characters: Vec<usize>,
 }
+
+/// Bytes of a block.
+const BLOCK: usize = 256;
 
 impl<'a> Source<'a> {
     pub fn new(text: &'a str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
-        Self { text, lines: std::iter::once(0).chain(ends).collect() }
+        let mut characters = vec![0];
+        for block in text.as_bytes().chunks(BLOCK) {
+            characters.push(characters[characters.len() - 1] + begun(block));
+        }
+        Self { text, lines: std::iter::once(0).chain(ends).collect(), characters }
     }
 
     pub fn document(&self) -> Read<Document<&'a str>> {
@@ -37,8 +51,13 @@ impl<'a> Source<'a> {
     pub fn place(&self, offset: usize) -> Place {
         let offset = offset.min(self.text.len());
         let line = self.lines.partition_point(|l| *l <= offset) - 1;
-        let before = self.text.get(self.lines[line]..offset).unwrap_or("");
-        Place { file: 0, line: line as u32 + 1, column: before.chars().count() as u32 + 1 }
+        let column = self.characters_before(offset) - self.characters_before(self.lines[line]);
+        Place { file: 0, line: line as u32 + 1, column: column as u32 + 1 }
+    }
+
+    fn characters_before(&self, offset: usize) -> usize {
+        let block = offset / BLOCK;
+        self.characters[block] + begun(&self.text.as_bytes()[block * BLOCK..offset])
     }
 
     pub fn place_of(&self, span: Option<Range<usize>>) -> Place {

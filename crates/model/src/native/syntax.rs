@@ -11,7 +11,6 @@ use toml_edit::Value;
 /// What a parameter's table says beside its value.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ParameterNote {
-    pub name: String,
     pub whole: bool,
     pub unit: Option<String>,
     pub meaning: Option<String>,
@@ -39,8 +38,7 @@ impl<'a> Definitions<'a> {
     pub fn parameter(&mut self, key: &'a str, place: Place, node: &Node<'a>) -> Read<()> {
         let what = format!("parameter {}", quote(key));
         let name = self.name(key, place)?;
-        let (mut note, mut range) =
-            (ParameterNote { name: key.to_string(), ..ParameterNote::default() }, None);
+        let (mut note, mut range) = (ParameterNote::default(), None);
         let mut value = *node;
         if node.is_table() {
             let fields = node.table(&what)?;

@@ -81,14 +81,25 @@ impl Profile {
     }
 
     fn crossed(&self, text: &LayerText, layer: &Drawn<f64>, found: &Crossing) -> Box<Fault> {
-        let (first, second) = (self.words(text, layer, found.first), self.words(text, layer, found.second));
+        // The one written later is at fault, whichever way the loops run.
+        let written = |at: At| {
+            let ring = &layer.rings[at.0];
+            let edge = &ring.edges[at.1];
+            (ring.text, ring.copy, edge.piece, edge.text, edge.fillet)
+        };
+        let (mut first, mut second) = (found.first, found.second);
+        if written(first) > written(second) {
+            std::mem::swap(&mut first, &mut second);
+        }
+        let place = self.place(text, layer, second);
+        let (first, second) = (self.words(text, layer, first), self.words(text, layer, second));
         let message = format!(
             "part {}, {second}: it touches or crosses {first} near ({}, {}); expected boundaries that keep apart",
             self.part,
             number(found.point.x),
             number(found.point.y)
         );
-        Fault::new(self.place(text, layer, found.second), message)
+        Fault::new(place, message)
     }
 
     /// A hole lies in an odd number of other loops, an outer boundary in an even number.

@@ -3,7 +3,8 @@
 //! Its centre is a common point of the two edges' curves moved by f to the side to which the boundary turns, the one
 //! nearest to the corner: a line moves along its normal, a circle grows or shrinks.
 
-use super::draw::{RawEdge, real};
+use super::draw::real;
+use super::ring::RawEdge;
 use crate::angle::{quotient, root};
 use mainspring_geometry::{Curve, Root, Scalar, Segment, Vec2};
 

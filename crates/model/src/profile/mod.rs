@@ -6,6 +6,7 @@
 mod check;
 mod draw;
 mod fillet;
+mod ring;
 mod walls;
 
 pub(crate) use walls::WallText;

@@ -75,6 +75,15 @@
     }).join("");
   }
 
+  // A turning part comes in again at the other side of the map.
+  function seen(p) {
+    return space.axes.map((axis, k) => {
+      const whole = axis.turns && axis.period, turns = whole ? Math.ceil((p[k] - axis.view[1]) / (2 * Math.PI)) : 0;
+      const v = p[k] - 2 * Math.PI * turns;
+      return whole && v < axis.view[0] && v + 2 * Math.PI <= axis.view[1] ? v + 2 * Math.PI : v;
+    });
+  }
+
   let q = space.start.slice(), held = false;
   const said = (v, axis) => minus(axis.turns ? (v * 180 / Math.PI).toFixed(2) + "°" : v.toPrecision(5));
 
@@ -84,7 +93,6 @@
       g.setAttribute("transform", joints.map(({ name, m }) => turn(m, position(name, q))).join(" ") + beyond(g));
     }
     here.setAttribute("cx", x); here.setAttribute("cy", y);
-    stage.classList.toggle("blocked", !open);
     const lit = new Set(hit ? hit.curve.m : []);
     marks.forEach((m, i) => { m.style.opacity = lit.has(i) ? 1 : 0; });
     near.style.display = toward.style.display = hit ? "" : "none";
@@ -93,12 +101,15 @@
       near.setAttribute("cx", nx); near.setAttribute("cy", ny);
       toward.setAttribute("d", `M${x} ${y}L${nx} ${ny}`);
     }
-    const word = open ? "free" : "blocked";
-    const touching = hit ? ` Nearest in the map: ${hit.curve.t}.` : "";
+    // Within a pixel's half the picture cannot tell.
+    const touches = hit && Math.hypot(...hit.off) < 0.5;
+    const word = touches ? "in contact" : open ? "free" : "blocked";
+    stage.classList.toggle("blocked", !open && !touches);
+    const touching = hit ? ` ${touches ? "Touching" : "Nearest in the map"}: ${hit.curve.t}.` : "";
     $("where").textContent = `${X.name} ${said(q[0], X)}, ${Y.name} ${said(q[1], Y)}: ${word}.${touching}`;
   }
   function clamp(v, axis) { return Math.min(axis.view[1], Math.max(axis.view[0], v)); }
-  function go(to) { q = [clamp(to[0], X), clamp(to[1], Y)]; show(); }
+  function go(to) { play(false); q = [clamp(to[0], X), clamp(to[1], Y)]; show(); }
   function toContact() {
     const hit = nearest(q);
     if (!hit) return;
@@ -108,16 +119,60 @@
   }
   function toStart() { held = true; go(space.start); }
 
+  // The film: the first part pushed, at an even pace along the way in the map.
+  const calm = matchMedia("(prefers-reduced-motion: reduce)");
+  const film = space.film && space.film.points, SECONDS = 9;
+  const trail = map.querySelector(".trail"), way = [0];
+  if (film) for (let i = 1; i < film.length; i++) {
+    way.push(way[i - 1] + Math.hypot((film[i][0] - film[i - 1][0]) * across, (film[i][1] - film[i - 1][1]) * up));
+  }
+  let playing = false, before = 0, passed = 0;
+  function at(length) {
+    let i = 1;
+    while (i < way.length - 1 && way[i] < length) i++;
+    const f = way[i] > way[i - 1] ? Math.min(1, (length - way[i - 1]) / (way[i] - way[i - 1])) : 1;
+    return [i, film[i - 1].map((v, k) => v + f * (film[i][k] - v))];
+  }
+  function place() {
+    const [i, p] = at(passed), line = [...film.slice(0, i), p].map((c) => pixel(seen(c)));
+    // A line that leaves the map at one side goes on at the other.
+    const joined = (c, b) => Math.abs(c[0] - b[0]) < wide / 2 && Math.abs(c[1] - b[1]) < tall / 2;
+    const step = (c, k) => (k && joined(c, line[k - 1]) ? "L" : "M") + c[0].toFixed(1) + " " + c[1].toFixed(1);
+    trail.setAttribute("d", line.map(step).join(""));
+    q = seen(p);
+    show();
+  }
+  function play(on) {
+    if (!film || playing === on) return;
+    playing = on;
+    if (on) { if (passed >= way[way.length - 1]) passed = 0; before = performance.now(); requestAnimationFrame(frame); }
+    $("play").textContent = $("play").textContent.replace(/^\S+/, on ? "❚❚" : "▶");
+    $("where").setAttribute("aria-live", on ? "off" : "polite");
+  }
+  function frame(now) {
+    if (!playing) return;
+    const end = way[way.length - 1];
+    passed += Math.max(0, Math.min(0.1, (now - before) / 1000)) * end / SECONDS;
+    before = now;
+    if (passed >= end) {
+      if (space.film.end !== "arrived") { passed = end; place(); play(false); return; }
+      passed = 0;
+    }
+    place();
+    requestAnimationFrame(frame);
+  }
+
   // Pointer and keys.
   function pointed(e) {
     const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(map.getScreenCTM().inverse());
     return value([p.x, p.y]);
   }
   map.addEventListener("pointermove", (e) => {
-    if (e.buttons || (e.pointerType === "mouse" && !held)) go(pointed(e));
+    if (e.buttons || (e.pointerType === "mouse" && !held && !playing)) go(pointed(e));
   });
   map.addEventListener("pointerdown", (e) => { map.setPointerCapture(e.pointerId); go(pointed(e)); });
   map.addEventListener("click", () => { held = !held; });
+  if (film) $("play").onclick = () => play(!playing);
   map.addEventListener("keydown", (e) => {
     if (e.ctrlKey || e.metaKey || e.altKey) return;
     const far = e.shiftKey ? 0.05 : 0.005, sx = far * (X.view[1] - X.view[0]), sy = far * (Y.view[1] - Y.view[0]);
@@ -125,6 +180,7 @@
     if (step) { held = true; go([q[0] + step[0], q[1] + step[1]]); }
     else if (e.key === "c" || e.key === "C") toContact();
     else if (e.key === "s" || e.key === "S") toStart();
+    else if (e.key === " ") play(!playing);
     else if (e.key === "Escape") held = false;
     else return;
     e.preventDefault();
@@ -132,8 +188,11 @@
   $("to-start").onclick = toStart;
   $("to-contact").onclick = toContact;
   if (location.hash.startsWith("#at=")) {
-    const at = location.hash.slice(4).split(",").map((v, k) => parseFloat(v) * (space.axes[k].turns ? Math.PI / 180 : 1));
-    if (at.length === 2 && at.every(Number.isFinite)) { q = at; held = true; }
+    const asked = location.hash.slice(4).split(",");
+    const to = asked.map((v, k) => parseFloat(v) * (k < 2 && space.axes[k].turns ? Math.PI / 180 : 1));
+    if (to.length === 2 && to.every(Number.isFinite)) { q = to; held = true; }
   }
   show();
+  calm.addEventListener("change", () => { if (calm.matches) play(false); });
+  if (!held && !calm.matches) play(true);
 })();
