@@ -24,7 +24,7 @@ fn twenty_thousand_inputs() {
 #[test]
 fn ten_thousand_inputs_in_toml() {
     let summary = tried(Language::Toml, 10_000, 1);
-    assert!((1_500..8_500).contains(&summary.accepted), "{} accepted", summary.accepted);
+    assert!((700..8_500).contains(&summary.accepted), "{} accepted", summary.accepted);
 }
 
 #[test]
