@@ -167,7 +167,9 @@ def test_constants_come_from_the_supplement_or_the_option(tmp_path):
     assert dict(stiff.contact) == {"E": 1e6, "D": 0.0, "M": 0.0}
 
 
-@pytest.mark.parametrize("constants", [(0.0, 1.0, 1.0), (1e5, -1.0, 1.0), (np.nan, 1.0, 1.0), (1e5, np.inf, 1.0)])
+@pytest.mark.parametrize(
+    "constants", [(0.0, 1.0, 1.0), (1e5, -1.0, 1.0), (np.nan, 1.0, 1.0), (1e5, np.inf, 1.0)]
+)
 def test_constants_that_make_no_force_are_refused(mechanism, constants):
     with pytest.raises(ms.InputError, match=r"^--contact-constants:1:1: error: .*; expected "):
         ms.simulate(mechanism, 1.0, contact="compliant", contact_constants=constants)
@@ -205,7 +207,9 @@ def test_the_command_line_runs_either_and_both(cli, tmp_path):
 
 @pytest.mark.parametrize("told", ["1e5,1e4", "1e5,1e4,x", "1,2,3,4", "-1,0,0"])
 def test_constants_on_the_command_line_are_checked(cli, told):
-    done = cli("simulate", ESCAPEMENT, "--until", "1", "--contact", "compliant", f"--contact-constants={told}")
+    done = cli(
+        "simulate", ESCAPEMENT, "--until", "1", "--contact", "compliant", f"--contact-constants={told}"
+    )
     assert done.returncode == 2
     assert done.stdout == ""
     assert "--contact-constants" in done.stderr

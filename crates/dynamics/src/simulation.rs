@@ -71,7 +71,7 @@ pub(crate) const MOST_AT_ONCE: u32 = 200;
 const LOOSEST: f64 = 1e-7;
 
 /// The part of a turn of the fastest drive after which what only drives move is looked at again.
-const DRIVEN_LOOK: f64 = 0.02;
+pub(crate) const DRIVEN_LOOK: f64 = 0.02;
 
 /// The contacts closed from a time on, until the next mode, and what dry friction does.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,9 +17,9 @@ use crate::recorder::Recorder;
 use crate::rest::{AT_REST, free_energy, longest_swing, rest_time};
 use crate::search::{CLOSED, TOGETHER, Watch, first_closing};
 use crate::settle::Closed;
-use crate::simulation::{MOST_AT_ONCE, Mode, Options, Run, Stats, Status, position_scales};
+use crate::simulation::{DRIVEN_LOOK, MOST_AT_ONCE, Mode, Options, Run, Stats, Status, position_scales};
 use crate::world::{Touch, World, stop_candidate};
-use mainspring_mechanism::{Candidate, ContactId, ContactLaw, ContactSource, Overlaps, System};
+use mainspring_mechanism::{Candidate, ContactId, ContactLaw, ContactSource, Drive, Overlaps, System};
 
 /// How far outside their cones, in radians, the normals of a second tip of the same piece may point.
 const FLUSH: f64 = 0.05;
@@ -164,7 +164,7 @@ impl<'a> Compliant<'a> {
             return Some(self.end(Status::AtRest));
         }
         self.stats.steps += 1;
-        let (next, loss, to) = if self.group.coordinates.is_empty() {
+        let (next, loss, to) = if self.group.coordinates.is_empty() && !self.drives_press() {
             self.fly()
         } else {
             let Some(found) = self.push() else { return Some(self.end(Status::StepLimit)) };
@@ -193,11 +193,30 @@ impl<'a> Compliant<'a> {
         }
     }
 
+    /// Do drives alone move what contacts or dry friction hold?
+    fn drives_press(&self) -> bool {
+        let moves = |d: &(usize, _)| !self.record.paths[d.0].is_rest();
+        let held = !self.group.tips.is_empty() || !self.group.stuck.is_empty();
+        held && self.world.drives.iter().any(moves)
+    }
+
     /// The longest stretch that may be looked at from now.
     fn horizon(&self) -> f64 {
         let t = self.record.t;
         let end = self.options.until.min(self.next_knot);
-        end.min(t + self.longest_stretch).min(t + longest_swing(&self.record.paths))
+        end.min(t + self.longest_stretch)
+            .min(t + longest_swing(&self.record.paths))
+            .min(self.longest_look(end))
+    }
+
+    /// What only drives move has no error to tell how long a step may be.
+    fn longest_look(&self, end: f64) -> f64 {
+        if !self.group.coordinates.is_empty() || !self.drives_press() {
+            return f64::INFINITY;
+        }
+        let rate = |&(i, drive): &(usize, &Drive)| drive.bounds(self.record.t, end).0 / self.scales[i];
+        let fastest = self.world.drives.iter().map(rate).fold(0.0, f64::max);
+        self.record.t + DRIVEN_LOOK * std::f64::consts::TAU / fastest.max(f64::MIN_POSITIVE)
     }
 
     /// The stretch of a flight without contacts: until something happens, or the end.
