@@ -71,7 +71,7 @@ pub(crate) const MOST_AT_ONCE: u32 = 200;
 const LOOSEST: f64 = 1e-7;
 
 /// The part of a turn of the fastest drive after which what only drives move is looked at again.
-pub(crate) const DRIVEN_LOOK: f64 = 0.02;
+const DRIVEN_LOOK: f64 = 0.02;
 
 /// The contacts closed from a time on, until the next mode, and what dry friction does.
 #[derive(Clone, Debug, PartialEq)]
@@ -615,7 +615,7 @@ impl<'a> Simulation<'a> {
         if !self.components.is_empty() || self.drives_move() || self.next_knot < f64::INFINITY {
             return to;
         }
-        rest_time(&self.world, &self.paths, (self.t, to), self.minima.top.max(self.energy.kinetic_max))
+        rest_time(&self.world, &self.paths, (self.t, to), self.minima.top)
     }
 
     /// Scales of position and velocity that tolerances are relative to, by coordinate.

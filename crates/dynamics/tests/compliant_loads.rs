@@ -58,7 +58,7 @@ fn a_pendulum_has_its_elliptic_period() {
         (a, b) = (0.5 * (a + b), (a * b).sqrt());
     }
     let period = TAU * (inertia / (m * G * d)).sqrt() / a;
-    for (rtol, allowed) in [(1e-6, 3e-5), (1e-9, 3e-8)] {
+    for (rtol, allowed) in [(1e-6, 3e-5), (1e-9, 1e-7)] {
         let found = push(&machine, law(), 9.0, rtol);
         assert_eq!(found.status, Status::Complete);
         for (n, minimum) in found.minima.iter().enumerate() {
@@ -220,7 +220,15 @@ fn a_table_pushes_and_stops() {
         vec![Some(table), None],
     );
     let found = push(&machine, law(), 60.0, 1e-7);
-    assert_eq!(found.status, Status::AtRest);
+    assert_eq!(
+        found.status,
+        Status::AtRest,
+        "{} {:?} {:?} {:?}",
+        found.t,
+        found.stats,
+        found.q,
+        found.events
+    );
     close(found.q[0], 0.2, 1e-14);
     close(found.q[1], 0.0, 1e-4);
     close(found.trajectory.state(1, 1.4).q, 0.3, 2e-3);
@@ -236,7 +244,7 @@ fn a_drive_against_the_frame_is_jammed() {
         .with_forces(forces);
     let found = push(&machine, law(), 9.0, 1e-6);
     assert_eq!(found.status, Status::Jammed);
-    assert!(found.t > 2.0 && found.t < 2.5, "{}", found.t);
+    assert!(found.t > 2.0 && found.t < 2.5, "jammed at {} {:?}", found.t, found.q);
     // Too soft for a constant force.
     let soft = ContactLaw { e: 1.0, d: 0.0, m: 0.0 };
     let pressed = System::new(
@@ -245,7 +253,8 @@ fn a_drive_against_the_frame_is_jammed() {
         &[],
         10.0,
     );
-    assert_eq!(push(&pressed, soft, 9.0, 1e-6).status, Status::TooDeep);
+    let found = push(&pressed, soft, 9.0, 1e-6);
+    assert_eq!(found.status, Status::TooDeep, "{} {:?} {:?}", found.t, found.q, found.events);
 }
 
 /// A lever falls on its stop and comes to rest there: depth by E at the stop's lever, force m g d sin θ / ℓ.
