@@ -85,7 +85,7 @@ def test_the_period_is_near_that_of_rigid_contact(mechanism, simulation, constan
         {"balance": "30 6 SPRING 90 15"},
         {"balance": "60 6 SPRING 90 15"},
         {"wheel": "200 20 SPRING -10000 6"},
-        {"wheel": "200 20 SPRING -10000 40"},
+        {"wheel": "200 20 SPRING -10000 30"},
     ],
 )
 def test_changed_machines_repeat_alike(tmp_path, changed):

@@ -21,26 +21,28 @@ impl Compliant<'_> {
         deep.then_some(if self.drives_act() { Status::Jammed } else { Status::TooDeep })
     }
 
-    /// Everything rests, or moves with next to no energy left above its equilibrium.
+    /// Everything rests, or moves with next to no energy left above its equilibrium: of what the solver moves, no more
+    /// than its own error.
     pub(super) fn is_at_rest(&mut self) -> bool {
-        // Motion below the solver's own error is no motion.
-        let level = self.options.rtol.powi(2).max(AT_REST) * self.record.minima.top;
-        if self.drives_act()
-            || kinetic(self.world.system, &self.q, &self.v) > level
-            || free_energy(&self.world, &self.record.paths, self.record.t) > level
-        {
+        let (system, top) = (self.world.system, self.record.minima.top);
+        if self.drives_act() || free_energy(&self.world, &self.record.paths, self.record.t) > AT_REST * top {
+            return false;
+        }
+        let level = self.options.rtol.powi(2).max(AT_REST) * top;
+        let own = &self.group.coordinates;
+        let mut moving = vec![0.0; self.q.len()];
+        own.iter().for_each(|&i| moving[i] = self.v[i]);
+        if kinetic(system, &self.q, &moving) > level {
             return false;
         }
         // Would the accelerations, over the times of the springs, give it no more energy?
+        let longest = own.iter().map(|&i| self.natural_times[i]).fold(0.0, f64::max);
         self.place_group();
         let accelerations = self.group.present_accelerations();
-        let mut gained = vec![0.0; self.q.len()];
-        let times = self.group.coordinates.iter().map(|&i| self.natural_times[i]);
-        let longest = times.fold(0.0, f64::max);
         for (&i, a) in self.group.coordinates.iter().zip(accelerations) {
-            gained[i] = a * longest;
+            moving[i] = a * longest;
         }
-        kinetic(self.world.system, &self.q, &gained) <= level
+        kinetic(system, &self.q, &moving) <= level
     }
 
     /// Scales of position and velocity that tolerances are relative to, by coordinate.
