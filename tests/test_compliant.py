@@ -145,6 +145,20 @@ def test_the_same_run_gives_the_same_bytes(mechanism):
     assert runs[0] == runs[1]
 
 
+def test_bytes_do_not_depend_on_the_hash_seed(cli):
+    asked = ("predict", ESCAPEMENT, "--contact", "both", "--json")
+    assert cli(*asked, PYTHONHASHSEED="1").stdout == cli(*asked, PYTHONHASHSEED="77").stdout
+
+
+def test_a_result_cites_the_solver_it_rests_on(cli, tmp_path):
+    for contact, cited in (("rigid", False), ("compliant", True), ("both", True)):
+        done = cli("simulate", ESCAPEMENT, "--until", "1", "--contact", contact, "--json")
+        (tmp_path / "r.json").write_text(done.stdout, encoding="utf-8")
+        said = cli("cite", "r.json").stdout
+        assert ("Steinebach" in said) is cited
+        assert ("Moreau" in said) is (contact != "compliant")
+
+
 def test_forces_are_those_of_the_law(mechanism):
     run = ms.simulate(mechanism, 3.0, contact="compliant", forces=True)
     pressed = [c for f in run.forces for c in f["contacts"] if c["force"] > 0]
