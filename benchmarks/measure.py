@@ -79,14 +79,14 @@ def memory(python: str, *arguments: str) -> float:
 
 def mainspring(contact: str) -> Row:
     """Return Mainspring's row with a contact model, without times."""
-    fine, next_fine = (with_mainspring.simulate(contact, rtol) for rtol in with_mainspring.REFINED)
+    fine, next_fine = (with_mainspring.simulate(contact, rtol) for rtol in with_mainspring.REFINED[contact])
     run = with_mainspring.simulate(contact)
     return Row(
         engine=with_mainspring.NAME,
         version=with_mainspring.version(),
         contact=contact,
         setting="relative tolerance",
-        step=with_mainspring.RTOL,
+        step=with_mainspring.RTOL[contact],
         steps=run.result["stats"]["steps"],
         period=run.period,
         limit=fine.period,
@@ -132,7 +132,7 @@ def clock(rows: list[Row], engines: list[Peer]) -> None:
 
 def mainspring_curve(row: Row) -> None:
     """Add time and error at other tolerances."""
-    for rtol in with_mainspring.RTOLS:
+    for rtol in with_mainspring.RTOLS[row.contact]:
         run = with_mainspring.simulate(row.contact, rtol, runs=OWN_RUNS)
         walls = run.walls + (row.walls if rtol == row.step else [])
         row.points.append(Point(rtol, min(walls), abs(run.period - row.limit)))

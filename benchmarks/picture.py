@@ -84,12 +84,16 @@ def grid(x: Axis, y: Axis) -> list[str]:
 def label(row: Row, point: Point) -> str:
     """Return the words at a point: the step or the tolerance."""
     if row.engine == "mainspring":
-        return (
-            f"rtol {power(round(log10(point.step)))}"
-            if point.step == row.step
-            else power(round(log10(point.step)))
-        )
+        told = tolerance(point.step)
+        return f"rtol {told}" if point.step == row.step else told
     return f"{point.step * 1e3:.2g} ms"
+
+
+def tolerance(step: float) -> str:
+    """Return a tolerance as a power of ten, with its factor if it is none."""
+    exponent = floor(log10(step) + 1e-9)
+    factor = round(step / 10.0**exponent)
+    return power(exponent) if factor == 1 else f"{factor}·{power(exponent)}"
 
 
 def placed(row: Row, side: int, a: float, b: float) -> tuple[float, float, str]:

@@ -40,7 +40,8 @@ machine disturbs all alike; speeds compare the fastest runs.
 **Errors** are distances of the period (mean of three patterns, from the third reversal to the ninth)
 from the engine's own limit, because contacts differ: soft in the peers, rigid or compliant in
 Mainspring. The limit is the period at the finest step or tolerance (MuJoCo 25 µs, pymunk 50 µs,
-Mainspring 1e-13), its doubt the distance from that at twice the step or ten times the tolerance.
+Mainspring 1e-13 rigid, 1e-11 compliant), its doubt the distance from that at twice the step or ten
+times the tolerance.
 
 **Memory** is the largest resident size of a fresh process, Python and all libraries included.
 

@@ -40,7 +40,7 @@ def mainspring(contact: str) -> RunDown:
     run = with_mainspring.simulate(contact, until=LONG_ENOUGH, runs=RUNS)
     return RunDown(
         engine=f"{with_mainspring.NAME} {contact}",
-        step=with_mainspring.RTOL,
+        step=with_mainspring.RTOL[contact],
         seconds=min(run.walls),
         until=run.result["t"],
         wheel=degrees(run.result["positions"]["ewheel"]),

@@ -94,8 +94,8 @@ class Event:
 class Energy:
     """The energy account of a run; losses positive.
 
-    `work` is what drives and constant torques did; `impacts` with compliant contact what contacts took, and
-    `contact_stored` what overlaps hold at the end (0 with rigid contact); `residual` is (initial + work - final -
+    `work` is what drives and constant torques did; with compliant contact `impacts` is what contacts took,
+    and `contact_stored` what overlaps hold at the end; `residual` is (initial + work - final -
     contact_stored - friction - impacts) / max(friction + impacts, kinetic_max).
     """
 
@@ -121,7 +121,9 @@ _ENDED = {
 
 @dataclass(frozen=True)
 class Simulation(Result):
-    """A simulated stretch; `status` is `complete`, `at_rest`, `jammed`, `too_deep`, `step_limit` or `stopped`.
+    """A simulated stretch.
+
+    `status` is `complete`, `at_rest`, `jammed`, `too_deep`, `step_limit` or `stopped`.
 
     Attributes
     ----------
@@ -246,7 +248,7 @@ def simulate(
     until
         End of the run, above 0, in the file's time unit.
     contact
-        Contact model: `rigid`; `compliant`; or `both`, which runs one after the other and tells where they differ.
+        Contact model: `rigid`; `compliant`; or `both`, one after the other, with where they differ.
     contact_constants
         E, D, M of compliant contact; None: the supplement's, else the paper's.
     rtol

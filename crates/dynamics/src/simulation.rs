@@ -615,7 +615,7 @@ impl<'a> Simulation<'a> {
         if !self.components.is_empty() || self.drives_move() || self.next_knot < f64::INFINITY {
             return to;
         }
-        rest_time(&self.world, &self.paths, (self.t, to), self.minima.top.max(self.energy.kinetic_max))
+        rest_time(&self.world, &self.paths, (self.t, to), self.minima.top)
     }
 
     /// Scales of position and velocity that tolerances are relative to, by coordinate.

@@ -181,8 +181,12 @@ impl<'r> Runs<'r> {
                 _ => format!("with {name} contact the run ended early at {t} s"),
             }
         };
+        let same = self.ended(0) == self.ended(1);
+        if same && self.ended(0) == Status::Complete {
+            return format!("With either model of contact it still runs at {} s.", number(self.until, 5));
+        }
         let (a, b) = (told(0), told(1));
-        let join = if self.ended(0) == self.ended(1) { ", and" } else { ", but" };
+        let join = if same { ", and" } else { ", but" };
         format!("W{}{join} {b}.", &a[1..])
     }
 

@@ -44,6 +44,14 @@ SOURCES: dict[str, tuple[tuple[str, str], ...]] = {
             "the small convex problems of contact",
         ),
     ),
+    "compliant": (
+        (GELSEY, "compliant contact (Sec. 2.2.1, Eqs. 4, 5, corrected)"),
+        (
+            "Steinebach, G. (2023). Construction of Rosenbrock-Wanner method Rodas5P and numerical "
+            "benchmarks within the Julia Differential Equations package. BIT Numerical Mathematics 63:27.",
+            "the stiff solver of compliant contact",
+        ),
+    ),
     "predict": ((GELSEY, "patterns of motion (Algorithm 12, corrected)"),),
 }
 _BUILDS_ON = {
@@ -56,8 +64,11 @@ _BUILDS_ON = {
 
 def run(options: Namespace) -> None:
     """Print the sources of one result, or of all."""
-    kind = kind_of(_read(Path(options.result))) if options.result else "all"
-    steps = _BUILDS_ON.get(kind, tuple(SOURCES))
+    kind, steps = "predict", tuple(SOURCES)
+    if options.result:
+        result = _read(Path(options.result))
+        kind = kind_of(result)
+        steps = steps_of(kind, result)
     found = [{"source": s, "used_for": why} for step in steps for s, why in SOURCES[step]]
     if options.json:
         output.print_json(json.dumps({"kind": kind, "sources": found}, ensure_ascii=False))
@@ -75,9 +86,21 @@ def _read(path: Path) -> Any:  # noqa: ANN401
         raise Usage(f"{path}: not JSON; expected a result of this program") from fault
 
 
+def steps_of(kind: str, result: dict[str, Any]) -> tuple[str, ...]:
+    """Return what a result of a kind rests on."""
+    steps = _BUILDS_ON[kind]
+    if "differences" in result:
+        return (*steps, "compliant")
+    if "contact" not in result or kind == "inspect":
+        return steps
+    return tuple("compliant" if step == "simulate" else step for step in steps)
+
+
 def kind_of(result: Any) -> str:  # noqa: ANN401
     """Return which command made a result, by its keys."""
     keys = set(result) if isinstance(result, dict) else set()
+    if {"differences", "rigid"} <= keys:
+        return kind_of(result["rigid"])
     for kind, key in (
         ("predict", "hypotheses"),
         ("predict", "prediction"),

@@ -92,8 +92,8 @@ def page(mechanism: Mechanism, result: Shown) -> str:
     mechanism
         The mechanism that was run.
     result
-        What `simulate` or `predict` returned for it. Of two models of contact the page shows the motion with rigid
-        contact, dashed beside it that with compliant contact.
+        What `simulate` or `predict` returned for it. Of two models of contact the page shows the motion with
+        rigid contact, dashed beside it that with compliant contact.
     """
     both = result if isinstance(result, Comparison) else None
     main: Either = result.rigid if isinstance(result, Comparison) else result

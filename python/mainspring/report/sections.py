@@ -84,7 +84,10 @@ def differences(
 ) -> str:
     """Tell where and by how much two models of contact differ."""
     d = both.differences
-    said = "<p>Dashed beside the curves: the same with compliant contact. Differences are compliant less rigid.</p>"
+    said = (
+        "<p>Dashed beside the curves: the same with compliant contact. "
+        "Differences are compliant less rigid.</p>"
+    )
     constants = ", ".join(f"{k} {figure(v)}" for k, v in d["constants"].items())
     law = f"<p>Compliant contact: {constants}.</p>"
 
@@ -105,8 +108,8 @@ def differences(
         f"<p>One pattern lasts {figure(lasts['rigid'], 8)} s with rigid contact and "
         f"{figure(lasts['compliant'], 8)} s with compliant contact.</p>"
     )
-    rows = [(name(p, colour), amount(p, x)) for p, x in d["change"].items()]
-    listed = table(("part", "change in one pattern differs by"), rows, (1,))
+    changes = [(name(p, colour), amount(p, x)) for p, x in d["change"].items()]
+    listed = table(("part", "change in one pattern differs by"), changes, (1,))
     return section("Where the models of contact differ", said, compared, listed, law)
 
 
@@ -138,7 +141,11 @@ def energy(run: Simulation) -> str:
         ("at the start", figure(e.initial, 8), ""),
         *([("done by drives and torques", figure(e.work, 8), "")] if e.work else []),
         ("lost to friction", figure(e.friction, 8), _bar(e.friction, lost)),
-        ("lost in contacts" if run.contact else "lost at impacts", figure(e.impacts, 8), _bar(e.impacts, lost)),
+        (
+            "lost in contacts" if run.contact else "lost at impacts",
+            figure(e.impacts, 8),
+            _bar(e.impacts, lost),
+        ),
         *([("stored in contacts", figure(e.contact_stored, 8), "")] if run.contact else []),
         ("at the end", figure(e.final, 8), ""),
     ]

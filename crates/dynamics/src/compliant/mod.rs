@@ -2,13 +2,16 @@
 
 mod changes;
 mod dry;
+mod ending;
 mod group;
 mod loads;
 mod rosenbrock;
+mod settling;
 mod simulation;
 mod steps;
 mod stretch;
 mod tableau;
 mod tip;
 
-pub use simulation::{Compliant, compliant_forces_at};
+pub use ending::compliant_forces_at;
+pub use simulation::Compliant;

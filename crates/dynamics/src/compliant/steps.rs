@@ -55,7 +55,9 @@ impl Stepper {
         let start = Start { t, q: &q, v: &v, a: &a };
         let shortest = 16.0 * f64::EPSILON * (1.0 + t.abs());
         let mut h = self.next.min(longest);
-        if self.next == f64::INFINITY {
+        if q.is_empty() {
+            h = longest;
+        } else if self.next == f64::INFINITY {
             // A new contact acts at once: begin with a small part of its own time.
             h = h.min(0.1 / self.stiffness(group.coordinates.len()));
         }
@@ -67,7 +69,7 @@ impl Stepper {
             let error = if solved { self.error(group, &a, h, scales) } else { f64::INFINITY };
             let factor = if error.is_finite() { (0.9 * error.powf(-0.2)).clamp(0.2, 4.0) } else { 0.1 };
             if error <= 1.0 {
-                self.next = h * factor;
+                self.next = if q.is_empty() { f64::INFINITY } else { h * factor };
                 self.stretch.set(&self.step, &start, h);
                 return Some(());
             }
@@ -87,6 +89,9 @@ impl Stepper {
     fn error(&self, group: &Group, a: &[f64], h: f64, scales: &Scales) -> f64 {
         let (e_q, e_v) = self.step.error();
         let n = group.coordinates.len();
+        if n == 0 {
+            return 0.0;
+        }
         let mut sum = 0.0;
         for (k, &i) in group.coordinates.iter().enumerate() {
             let rate = self.jacobian.by_position[k * n + k].abs().sqrt();
