@@ -271,8 +271,8 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
 impl Equations for ComponentEquations<'_, '_> {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let n = self.component.coordinates.len();
-        for (i, drive) in &self.world.drives {
-            let driven = drive.at(t);
+        for ((i, _), piece) in self.world.drives.iter().zip(&self.world.driven) {
+            let driven = piece.at(t);
             (self.q[*i], self.v[*i]) = (driven.q, driven.v);
         }
         for (k, &i) in self.component.coordinates.iter().enumerate() {

@@ -53,7 +53,7 @@ impl DrivenPath {
     }
 
     /// State and acceleration at time `t`.
-    fn state(&self, t: f64) -> (State, f64) {
+    pub fn state(&self, t: f64) -> (State, f64) {
         let ([c0, c1, c2, c3], tau) = (self.c, t - self.t0);
         let q = c0 + tau * (c1 + tau * (c2 + tau * c3));
         (State { q, v: c1 + tau * (2.0 * c2 + 3.0 * tau * c3) }, 2.0 * c2 + 6.0 * tau * c3)

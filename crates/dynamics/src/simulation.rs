@@ -8,7 +8,7 @@ use crate::events::{Event, entries};
 use crate::flight::{Flight, State};
 use crate::inertia::Inertia;
 use crate::minima::{Minimum, MinimumFinder};
-use crate::path::{DrivenPath, Path, Piece, Trajectory};
+use crate::path::{Path, Piece, Trajectory};
 use crate::place::is_standing;
 use crate::ranges::Track;
 use crate::search::{CLOSED, Stretch, Watch, first_closing};
@@ -228,12 +228,23 @@ impl<'a> Simulation<'a> {
         let to = self.rest_time(to);
         let (at, change) = self.next_event(to);
         self.commit(at);
-        if change.is_some() || self.t >= self.next_knot {
+        if change.is_some() || self.t >= self.next_knot || self.slips() {
             self.resolve(change);
         } else {
             self.tend();
         }
         None
+    }
+
+    /// Does a coordinate move that contacts alone held at rest, so that nothing told in which direction?
+    fn slips(&self) -> bool {
+        let world = &self.world;
+        let loose = |&i: &usize| {
+            let rested =
+                world.system.forces.coulomb[i] > 0.0 && world.sliding[i] == 0.0 && !world.free.is_held(i);
+            rested && self.v[i].abs() > self.halted(i)
+        };
+        (0..self.v.len()).any(|i| loose(&i))
     }
 
     /// Why equations cannot be solved: parts that a drive locks, or else nobody knows.
@@ -483,9 +494,9 @@ impl<'a> Simulation<'a> {
         self.v = v;
         self.events.extend(entries(&self.world, self.t, &self.closed, &settled));
         self.energy.work += settled.work;
+        self.energy.impacts += settled.loss;
         if !settled.impulses.is_empty() {
             self.stats.impacts += 1;
-            self.energy.impacts += settled.loss;
             self.minima.impact(settled.loss, self.t);
         }
         if !settled.solved {
@@ -516,13 +527,11 @@ impl<'a> Simulation<'a> {
 
     /// Paths of driven coordinates from now on, and when to look again.
     fn set_drives(&mut self) {
-        self.next_knot = f64::INFINITY;
+        self.next_knot = self.world.follow_drives(self.t);
         for k in 0..self.world.drives.len() {
-            let (i, drive) = self.world.drives[k];
-            let (path, until) = DrivenPath::new(drive, self.t);
+            let ((i, _), path) = (self.world.drives[k], self.world.driven[k]);
             let rests = path.is_rest();
             self.set_path(i, if rests { Path::Rest { q: path.at(self.t).q } } else { Path::Driven(path) });
-            self.next_knot = self.next_knot.min(until);
         }
     }
 
