@@ -9,14 +9,19 @@
 use crate::flight::Bounds;
 use crate::inertia::Inertia;
 use crate::linear::{Small, factorize, solve_factorized};
+use crate::opposed::are_opposed;
 use crate::path::Path;
 use crate::runge_kutta::{Equations, Polynomial, Step};
+use crate::settle::Closed;
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, Placed, Row};
 use std::sync::Arc;
 
 /// Velocities below this fraction of what the greatest speeds make likely are no scale of their own.
 const SLOWEST: f64 = 1e-6;
+
+/// How far contacts may come off zero half way along a step, against the tolerance: all along it less than the tolerance.
+const BETWEEN: f64 = 0.25;
 
 /// A moving group of coordinates with the contacts it rests on (independent rows).
 #[derive(Clone, Debug, Default)]
@@ -28,6 +33,8 @@ pub struct Component {
     /// Indices into `System::coupled`.
     blocks: Vec<usize>,
     pub contacts: Vec<Candidate>,
+    /// For each contact one on the other side of what it touches, closed as well: the pair holds both ways.
+    pub backs: Vec<Option<Candidate>>,
     /// Bodies its contacts involve, and for each contact their places in that list.
     bodies: Vec<usize>,
     sides: Vec<(usize, usize)>,
@@ -51,8 +58,12 @@ pub struct Tolerance<'a> {
 }
 
 impl Component {
-    /// Of the coordinates of a group, driven ones left out, with its contacts.
-    pub fn new(world: &World, group: Vec<usize>, contacts: Vec<Candidate>) -> Self {
+    /// Of the coordinates of a group, driven ones left out, with its contacts among all that are closed.
+    pub fn new(world: &World, group: Vec<usize>, contacts: Vec<Candidate>, closed: &[Closed]) -> Self {
+        let opposed = |c: &Candidate| {
+            closed.iter().map(|other| other.candidate).find(|other| are_opposed(world, c, other))
+        };
+        let backs = contacts.iter().map(opposed).collect();
         let (stuck, coordinates): (Vec<usize>, Vec<usize>) = group.into_iter().partition(|&i| world.stuck[i]);
         let holds = |k: &usize| {
             let members = &world.system.coupled[*k].coordinates;
@@ -74,7 +85,7 @@ impl Component {
                 (place(a), place(b))
             })
             .collect();
-        Self { coordinates, stuck, blocks, contacts, bodies, sides, step: Step::default() }
+        Self { coordinates, stuck, blocks, contacts, backs, bodies, sides, step: Step::default() }
     }
 
     /// Evaluates each contact at `q` in turn.
@@ -173,7 +184,7 @@ impl Component {
         let mut h = h.min(longest);
         let mut equations = ComponentEquations::new(self, world, q, v);
         let start: Small<f64, 8> = step.begin(&mut equations, t, &y)[n..].into();
-        let singular = equations.singular;
+        let (singular, gaps) = (equations.singular, equations.gaps.clone());
         let result = loop {
             if h < tolerance.shortest {
                 break None;
@@ -184,8 +195,14 @@ impl Component {
             let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
                 let dense = step.dense(&mut equations, t, &y, h);
-                let paths = self.paths(&dense, t, h);
-                break Some(Advance { h, next: h * factor, paths });
+                let between = equations.strays(&dense, &gaps, t, h) / (BETWEEN * tolerance.relative);
+                let next = h * factor.min((0.9 * between.powf(-0.125)).clamp(0.2, 3.0));
+                if between <= 1.0 {
+                    let paths = self.paths(&dense, t, h);
+                    break Some(Advance { h, next, paths });
+                }
+                h = next;
+                continue;
             }
             h *= factor.min(0.5);
         };
@@ -252,10 +269,33 @@ struct ComponentEquations<'c, 'w> {
     q: Small<f64, 8>,
     v: Small<f64, 8>,
     acceleration: Small<f64, 8>,
+    /// Of the contacts, where last evaluated.
+    gaps: Small<f64>,
     singular: bool,
 }
 
 impl<'c, 'w> ComponentEquations<'c, 'w> {
+    /// How far gaps come off those at the start half way along a step, relative to the machine's size.
+    fn strays(&mut self, dense: &[Polynomial], gaps: &[f64], t: f64, h: f64) -> f64 {
+        self.follow_drives(t + 0.5 * h);
+        for (&i, q) in self.component.coordinates.iter().zip(dense) {
+            self.q[i] = q.at(0.5);
+        }
+        let (mut farthest, mut gaps) = (0.0f64, gaps.iter());
+        self.component.each_touch(self.world, &self.q, |touch| {
+            let start = gaps.next().copied().unwrap_or(0.0);
+            farthest = farthest.max((touch.state.gap - start).abs());
+        });
+        farthest / self.world.system.size
+    }
+
+    fn follow_drives(&mut self, t: f64) {
+        for ((i, _), piece) in self.world.drives.iter().zip(&self.world.driven) {
+            let driven = piece.at(t);
+            (self.q[*i], self.v[*i]) = (driven.q, driven.v);
+        }
+    }
+
     fn new(component: &'c Component, world: &'c mut World<'w>, q: &[f64], v: &[f64]) -> Self {
         Self {
             component,
@@ -263,6 +303,7 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
             q: q.into(),
             v: v.into(),
             acceleration: smallvec::smallvec![0.0; q.len()],
+            gaps: Small::new(),
             singular: false,
         }
     }
@@ -271,15 +312,15 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
 impl Equations for ComponentEquations<'_, '_> {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let n = self.component.coordinates.len();
-        for ((i, _), piece) in self.world.drives.iter().zip(&self.world.driven) {
-            let driven = piece.at(t);
-            (self.q[*i], self.v[*i]) = (driven.q, driven.v);
-        }
+        self.follow_drives(t);
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
         let state = (self.q.as_slice(), self.v.as_slice());
-        let forces = self.component.forces(self.world, t, state, &mut self.acceleration, |_| {});
+        let gaps = &mut self.gaps;
+        gaps.clear();
+        let note = |touch: &Touch| gaps.push(touch.state.gap);
+        let forces = self.component.forces(self.world, t, state, &mut self.acceleration, note);
         self.singular |= forces.is_none();
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];

@@ -6,7 +6,7 @@
 use crate::clearance::Gap;
 use crate::pace::{GapPace, Pace};
 use crate::root::narrow;
-use crate::search::{BAND, CLOSED, MOST_STEPS};
+use crate::search::{BAND, CLOSED, INEXACT, MOST_STEPS};
 use crate::sight::Sight;
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Approach, Candidate, Feature, Relative, approach};
@@ -65,7 +65,10 @@ impl<'a> March<'a> {
             // Bound met: hand the place to the resolver rather than step over it.
             return Some(t);
         }
-        let seen = self.approach(world, relative);
+        let mut seen = self.approach(world, relative);
+        if seen.gap.abs() <= INEXACT * world.system.size && sight.hold(world) {
+            seen = self.approach(world, &sight.relative());
+        }
         let gap = seen.gap - self.floor.unwrap_or(0.0);
         // Late in a run the clock's own grain moves the gap by more than `CLOSED`.
         let closed = CLOSED * world.system.size + 8.0 * f64::EPSILON * t.abs() * seen.rate.abs();
@@ -214,7 +217,11 @@ impl<'a> March<'a> {
 
     fn gap_at(&self, t: f64, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>) -> f64 {
         sight.move_to(world, t);
-        self.approach(world, &sight.relative()).gap - self.floor.unwrap_or(0.0)
+        let mut gap = self.approach(world, &sight.relative()).gap;
+        if gap.abs() <= INEXACT * world.system.size && sight.hold(world) {
+            gap = self.approach(world, &sight.relative()).gap;
+        }
+        gap - self.floor.unwrap_or(0.0)
     }
 
     fn margin(&self, world: &mut World, sight: &Sight) -> f64 {

@@ -314,7 +314,7 @@ impl<'a> Simulation<'a> {
             .map(|c| (c.candidate.id, self.watch_closed(c)))
             .chain(self.released.iter().map(|&(id, floor)| (id, Watch::Released { floor })))
             .collect();
-        let stretch = Stretch { paths: &self.paths, from: self.t, to };
+        let stretch = Stretch { paths: &self.paths, components: &self.components, from: self.t, to };
         let speeds = &self.speeds;
         let mut real = |world: &mut World, touch: &crate::world::Touch, q: &[f64], v: &[f64]| {
             is_standing(world, touch, q, v, speeds)
@@ -324,7 +324,7 @@ impl<'a> Simulation<'a> {
         let mut first = found.closing.map(|c| (c.t, Change::Closing(c.candidate.id)));
         self.stop_closing(&watched, &mut to, &mut first);
         self.first_halt(&mut to, &mut first);
-        let stretch = Stretch { paths: &self.paths, from: self.t, to };
+        let stretch = Stretch { paths: &self.paths, components: &self.components, from: self.t, to };
         for (component, _) in &self.components {
             let limit = first.map_or(to, |f| f.0);
             let found = first_change(&mut self.world, component, &Stretch { to: limit, ..stretch });
@@ -440,12 +440,12 @@ impl<'a> Simulation<'a> {
             |world: &World, id, paths: &[Path]| world.coordinates_of(id).any(|i| !paths[i].is_rest());
         let mut changed = false;
         for k in 0..self.closed.len() {
-            let Closed { candidate, active, .. } = self.closed[k];
+            let Closed { candidate, active, gap, .. } = self.closed[k];
             if !active && moving(&self.world, candidate.id, &self.paths) {
                 let (a, b) = self.world.place(&candidate, &self.q);
                 let touch = self.world.touch_at(&candidate, &self.q, (&a, &b));
                 let off = touch.margin(self.world.system.size) < 0.0;
-                changed |= touch.state.gap.abs() > open || off;
+                changed |= (touch.state.gap - gap).abs() > open || off;
             }
         }
         if changed {
@@ -556,7 +556,7 @@ impl<'a> Simulation<'a> {
             for &i in group.coordinates.iter().filter(|&&i| settled.stuck[i]) {
                 self.set_path(i, Path::Rest { q: self.q[i] });
             }
-            let component = Component::new(&self.world, group.coordinates, contacts);
+            let component = Component::new(&self.world, group.coordinates, contacts, &settled.closed);
             self.components.push((component, self.t));
         }
         let moved = self.world.moved.clone();

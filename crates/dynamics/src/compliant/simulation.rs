@@ -286,7 +286,7 @@ impl<'a> Compliant<'a> {
                 self.strict[i] = self.stretch.strict_path(k);
             }
         }
-        let stretch = crate::search::Stretch { paths: &self.strict, from: self.t, to };
+        let stretch = crate::search::Stretch { paths: &self.strict, components: &[], from: self.t, to };
         let (speeds, overlaps, tips) = (&self.speeds, &self.overlaps, &self.group.tips);
         let mut real = |world: &mut World, touch: &Touch, q: &[f64], v: &[f64]| {
             let state = &touch.state;
