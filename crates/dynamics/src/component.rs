@@ -23,6 +23,9 @@ const SLOWEST: f64 = 1e-6;
 /// How far contacts may come off zero half way along a step, against the tolerance: all along it less than the tolerance.
 const BETWEEN: f64 = 0.25;
 
+/// Roundings of positions that may meet in a gap.
+const GRAIN: f64 = 16.0;
+
 /// A moving group of coordinates with the contacts it rests on (independent rows).
 #[derive(Clone, Debug, Default)]
 pub struct Component {
@@ -184,7 +187,12 @@ impl Component {
         let mut h = h.min(longest);
         let mut equations = ComponentEquations::new(self, world, q, v);
         let start: Small<f64, 8> = step.begin(&mut equations, t, &y)[n..].into();
-        let (singular, gaps) = (equations.singular, equations.gaps.clone());
+        let singular = equations.singular;
+        let size = equations.world.system.size;
+        // Gaps are no finer than the positions that make them.
+        let grain = |(q, scale): (&f64, &f64)| GRAIN * f64::EPSILON * (q / scale).abs();
+        let coarsest = q.iter().zip(tolerance.positions).map(grain).fold(0.0, f64::max);
+        let within = size * (BETWEEN * tolerance.relative).max(coarsest);
         let result = loop {
             if h < tolerance.shortest {
                 break None;
@@ -195,7 +203,7 @@ impl Component {
             let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
                 let dense = step.dense(&mut equations, t, &y, h);
-                let between = equations.strays(&dense, &gaps, t, h) / (BETWEEN * tolerance.relative);
+                let between = equations.strays(&dense, (t, h), within) / within;
                 let next = h * factor.min((0.9 * between.powf(-0.125)).clamp(0.2, 3.0));
                 if between <= 1.0 {
                     let paths = self.paths(&dense, t, h);
@@ -269,24 +277,30 @@ struct ComponentEquations<'c, 'w> {
     q: Small<f64, 8>,
     v: Small<f64, 8>,
     acceleration: Small<f64, 8>,
-    /// Of the contacts, where last evaluated.
-    gaps: Small<f64>,
     singular: bool,
 }
 
 impl<'c, 'w> ComponentEquations<'c, 'w> {
-    /// How far gaps come off those at the start half way along a step, relative to the machine's size.
-    fn strays(&mut self, dense: &[Polynomial], gaps: &[f64], t: f64, h: f64) -> f64 {
-        self.follow_drives(t + 0.5 * h);
-        for (&i, q) in self.component.coordinates.iter().zip(dense) {
-            self.q[i] = q.at(0.5);
+    /// How far gaps come off zero half way along a step, or off those they had at its start.
+    fn strays(&mut self, dense: &[Polynomial], (t, h): (f64, f64), within: f64) -> f64 {
+        let middle = self.gaps(dense, (t, h), 0.5);
+        let off = middle.iter().fold(0.0, |most: f64, gap| most.max(gap.abs()));
+        if off <= within {
+            return off;
         }
-        let (mut farthest, mut gaps) = (0.0f64, gaps.iter());
-        self.component.each_touch(self.world, &self.q, |touch| {
-            let start = gaps.next().copied().unwrap_or(0.0);
-            farthest = farthest.max((touch.state.gap - start).abs());
-        });
-        farthest / self.world.system.size
+        let start = self.gaps(dense, (t, h), 0.0);
+        middle.iter().zip(&start).fold(0.0, |most, (gap, start)| most.max((gap - start).abs()))
+    }
+
+    /// The contacts' gaps at the share `x` of a step.
+    fn gaps(&mut self, dense: &[Polynomial], (t, h): (f64, f64), x: f64) -> Small<f64> {
+        self.follow_drives(t + x * h);
+        for (&i, q) in self.component.coordinates.iter().zip(dense) {
+            self.q[i] = q.at(x);
+        }
+        let mut gaps = Small::new();
+        self.component.each_touch(self.world, &self.q, |touch| gaps.push(touch.state.gap));
+        gaps
     }
 
     fn follow_drives(&mut self, t: f64) {
@@ -303,7 +317,6 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
             q: q.into(),
             v: v.into(),
             acceleration: smallvec::smallvec![0.0; q.len()],
-            gaps: Small::new(),
             singular: false,
         }
     }
@@ -317,10 +330,7 @@ impl Equations for ComponentEquations<'_, '_> {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
         let state = (self.q.as_slice(), self.v.as_slice());
-        let gaps = &mut self.gaps;
-        gaps.clear();
-        let note = |touch: &Touch| gaps.push(touch.state.gap);
-        let forces = self.component.forces(self.world, t, state, &mut self.acceleration, note);
+        let forces = self.component.forces(self.world, t, state, &mut self.acceleration, |_| {});
         self.singular |= forces.is_none();
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];

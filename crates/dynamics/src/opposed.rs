@@ -5,9 +5,12 @@
 //! two round features between such edges if the bodies do not turn against each other. While one of the two is closed,
 //! the gap of the other is c.
 
-use crate::world::World;
+use crate::inertia::Inertia;
+use crate::linear::Cholesky;
+use crate::settle::Closed;
+use crate::world::{Touch, World};
 use mainspring_geometry::Vec2;
-use mainspring_mechanism::{Candidate, Feature, FeatureShape, GapKind};
+use mainspring_mechanism::{Candidate, Feature, FeatureShape, GapKind, Row};
 
 /// Directions and places that agree to this (radians; shares of the machine's size) are the same.
 const SAME: f64 = 1e-14;
@@ -35,6 +38,30 @@ pub fn are_opposed(world: &World, one: &Candidate, other: &Candidate) -> bool {
             near(a.0, b.0) && near(a.1, b.1)
         }
         _ => false,
+    }
+}
+
+/// What two faces of a groove hold between them stays so even at an instant at which neither carries force: one of them
+/// becomes active, if that leaves the active rows independent.
+pub fn hold_between(world: &World, touches: &[&Touch], state: (&[f64], &[f64]), closed: &mut [Closed]) {
+    let opposed = |i: usize, all: &[Closed]| {
+        all.iter().any(|other| are_opposed(world, &all[i].candidate, &other.candidate))
+    };
+    if !(0..closed.len()).any(|i| !closed[i].active && opposed(i, closed)) {
+        return;
+    }
+    let inertia = Inertia::whole(world.system, &world.free, state);
+    let row = |c: &Closed| touches.iter().find(|t| t.candidate.id == c.candidate.id).map(|t| t.row());
+    let mut rows: Vec<Row> = closed.iter().filter(|c| c.active).filter_map(row).collect();
+    for i in 0..closed.len() {
+        if closed[i].active || !opposed(i, closed) {
+            continue;
+        }
+        rows.extend(row(&closed[i]));
+        closed[i].active = Cholesky::new(inertia.inverse(&rows), rows.len()).is_some();
+        if !closed[i].active {
+            rows.pop();
+        }
     }
 }
 

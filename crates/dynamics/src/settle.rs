@@ -10,7 +10,7 @@ use crate::complementarity::{Solution, solve, solve_bounded};
 use crate::energy::kinetic;
 use crate::inertia::{Freedom, Inertia};
 use crate::linear::{Cholesky, Small};
-use crate::opposed::are_opposed;
+use crate::opposed::hold_between;
 use crate::place::representatives;
 use crate::search::{OVERLAP, TOGETHER};
 use crate::simulation::Mode;
@@ -358,31 +358,7 @@ fn hold(world: &mut World, instant: &Instant, touches: &[Touch], v: &[f64], out:
             out.closed.push(Closed { candidate, gap: touch.state.gap, force, active: force > 0.0 });
         }
     }
-    hold_between(world, instant, &touches, v, &mut out.closed);
-}
-
-/// What two faces of a groove hold between them stays so even at an instant at which neither carries force: one of them
-/// becomes active, if that leaves the active rows independent.
-fn hold_between(world: &World, instant: &Instant, touches: &[&Touch], v: &[f64], closed: &mut [Closed]) {
-    let opposed = |i: usize, all: &[Closed]| {
-        all.iter().any(|other| are_opposed(world, &all[i].candidate, &other.candidate))
-    };
-    if !(0..closed.len()).any(|i| !closed[i].active && opposed(i, closed)) {
-        return;
-    }
-    let inertia = Inertia::whole(world.system, &world.free, (instant.q, v));
-    let row = |c: &Closed| touches.iter().find(|t| t.candidate.id == c.candidate.id).map(|t| t.row());
-    let mut rows: Vec<Row> = closed.iter().filter(|c| c.active).filter_map(row).collect();
-    for i in 0..closed.len() {
-        if closed[i].active || !opposed(i, closed) {
-            continue;
-        }
-        rows.extend(row(&closed[i]));
-        closed[i].active = Cholesky::new(inertia.inverse(&rows), rows.len()).is_some();
-        if !closed[i].active {
-            rows.pop();
-        }
-    }
+    hold_between(world, &touches, (instant.q, v), &mut out.closed);
 }
 
 /// Directions in which free coordinates with dry friction slide: by their velocities, or as they have just let go.

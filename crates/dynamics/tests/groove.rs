@@ -123,3 +123,19 @@ fn a_ring_without_play_holds_nothing() {
     close(found.q[0], 10.0 * (1.0 - (-4.0f64).exp()), 1e-7);
     close(found.q[1], 0.0, 1e-12);
 }
+
+/// After a hundred thousand turns positions are as coarse as the tightest tolerance: the run goes on, as it should.
+#[test]
+fn positions_far_from_zero() {
+    let near = rocker(&[]);
+    let far = 1e5 * std::f64::consts::TAU;
+    let mut system = rocker(&[]);
+    system.coordinates[0].position += far;
+    system.coordinates[0].force += system.coordinates[0].stiffness * far;
+    for rtol in [1e-8, 1e-11, 1e-13] {
+        let (one, other) = (run(&near, rtol), run(&system, rtol));
+        assert_eq!((one.status, other.status), (Status::Complete, Status::Complete), "{rtol:e}");
+        close(other.q[0] - far, one.q[0], 1e-6);
+        close(other.q[1], one.q[1], 1e-6);
+    }
+}
