@@ -19,7 +19,7 @@ fn rocker(set: &[(&str, f64)]) -> System {
 
 fn run(system: &System, rtol: f64) -> Run {
     let source = system.direct_search();
-    let mut run = Simulation::new(system, &source, Options { until: UNTIL, rtol, ..Options::default() });
+    let mut run = Simulation::new(system, &source, Options { until: UNTIL, rtol, max_steps: 10_000 });
     run.run(&mut |_| true);
     let run = run.into_run();
     overlap::assert_free(system, &run);
