@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mainspring import _core
+from mainspring import _core, counting
 from mainspring.comparison import Comparison, Constants, comparison_of
 from mainspring.machine import Mechanism
 from mainspring.result import Result, frozen, pairs_of, parse
@@ -45,6 +45,8 @@ class Trajectory:
 
     def at(self, t: ArrayLike) -> State:
         """Evaluate the motion at any times within the run, to the accuracy of the run itself.
+
+        Contacts that are closed stay so to `rtol` (1e-7 at the loosest) times the machine's size.
 
         Parameters
         ----------
@@ -156,8 +158,9 @@ class Simulation(Result):
     def _sentences(self) -> Iterable[str]:
         yield _ENDED.get(self.status, self.status).format(f"{self.t:.6g}")
         changes = sum(e.kind != "impact" for e in self.events)
+        struck = counting.impacts(self.stats["impacts"], len(self.events) - changes)
         yield (
-            f"{self.stats['impacts']} impacts, {changes} contact changes; "
+            f"{struck}, {counting.number_of(changes, 'contact change')}; "
             f"the energy account closes to {abs(self.energy.residual):.0e}."
         )
 

@@ -91,8 +91,19 @@ pub fn predict(
             break Outcome::Stopped;
         }
     };
-    let hypotheses = follower.hypotheses(&outcome);
+    let hypotheses = follower.hypotheses(&outcome, run.now().0);
     Prediction { outcome, hypotheses, run: run.finish() }
+}
+
+/// Why a hypothesis that nothing contradicted does not hold; None where one does.
+fn fall(outcome: &Outcome) -> Option<&'static str> {
+    match outcome {
+        Outcome::Repeats { .. } => None,
+        Outcome::ComesToRest { .. } => Some("the machine came to rest"),
+        Outcome::NoPattern(NoPattern::ConstantKineticEnergy) => Some("the kinetic energy never changed"),
+        Outcome::NoPattern(NoPattern::Jammed) => Some("the machine jammed"),
+        Outcome::NoPattern(_) | Outcome::Stopped => Some("the search ended before it was confirmed"),
+    }
 }
 
 /// How long to run between looks: twenty of the machine's longest own times.
@@ -311,8 +322,9 @@ impl<'o> Follower<'o> {
         Outcome::ComesToRest { t, jammed: driven && !held.is_empty(), held }
     }
 
-    /// Hypotheses of the series that decided, or of the first that formed any.
-    fn hypotheses(&self, outcome: &Outcome) -> Vec<Hypothesis> {
+    /// Hypotheses of the series that decided, or of the first that formed any. One that still stood when it turned out
+    /// otherwise falls with that.
+    fn hypotheses(&self, outcome: &Outcome, end: f64) -> Vec<Hypothesis> {
         if *outcome == Outcome::NoPattern(NoPattern::ConstantKineticEnergy) {
             return vec![];
         }
@@ -320,6 +332,12 @@ impl<'o> Follower<'o> {
             Outcome::Repeats { basis, .. } => *basis as usize,
             _ => self.series.iter().position(|s| !s.hypotheses.is_empty()).unwrap_or(0),
         };
-        self.series[chosen].hypotheses.clone()
+        let mut found = self.series[chosen].hypotheses.clone();
+        if let Some(why) = fall(outcome) {
+            for h in found.iter_mut().filter(|h| h.fell.is_none()) {
+                (h.fell, h.why) = (Some(end), Some(why.into()));
+            }
+        }
+        found
     }
 }

@@ -150,3 +150,16 @@ fn it_gives_up_when_told() {
         predict(&escapement(), &escapement().direct_search(), &PredictOptions::default(), &mut |t| t < 5.0);
     assert_eq!(found.outcome, Outcome::Stopped);
 }
+
+/// A pin that rocks an arm until its spring has run down: a pattern stood when it came to rest, and falls with that.
+#[test]
+fn what_comes_to_rest_confirms_no_pattern() {
+    let mut system = common::examples::example(("rotary-to-reciprocating", "rotary-to-reciprocating"), &[]);
+    system.coordinates[0] = coordinate("wheel", 60.0, 60.0, (1.0, 10_000.0 * DEGREE));
+    system.coordinates[1] = coordinate("arm", 100.0, 10.0, (0.0, 0.0));
+    let found = predicted(&system, &PredictOptions::default());
+    assert!(matches!(found.outcome, Outcome::ComesToRest { .. }), "{:?}", found.outcome);
+    let last = found.hypotheses.last().expect("one was formed");
+    assert_eq!((last.fell, last.why.as_deref()), (Some(found.run.t), Some("the machine came to rest")));
+    assert!(found.hypotheses.iter().all(|h| h.fell.is_some() && h.why.is_some()));
+}

@@ -9,14 +9,22 @@
 use crate::flight::Bounds;
 use crate::inertia::Inertia;
 use crate::linear::{Small, factorize, solve_factorized};
+use crate::opposed::are_opposed;
 use crate::path::Path;
 use crate::runge_kutta::{Equations, Polynomial, Step};
+use crate::settle::Closed;
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Candidate, Placed, Row};
 use std::sync::Arc;
 
 /// Velocities below this fraction of what the greatest speeds make likely are no scale of their own.
 const SLOWEST: f64 = 1e-6;
+
+/// How far contacts may come off zero half way along a step, against the tolerance: all along it less than the tolerance.
+const BETWEEN: f64 = 0.25;
+
+/// Roundings of positions that may meet in a gap.
+const GRAIN: f64 = 16.0;
 
 /// A moving group of coordinates with the contacts it rests on (independent rows).
 #[derive(Clone, Debug, Default)]
@@ -28,6 +36,8 @@ pub struct Component {
     /// Indices into `System::coupled`.
     blocks: Vec<usize>,
     pub contacts: Vec<Candidate>,
+    /// For each contact one on the other side of what it touches, closed as well: the pair holds both ways.
+    pub backs: Vec<Option<Candidate>>,
     /// Bodies its contacts involve, and for each contact their places in that list.
     bodies: Vec<usize>,
     sides: Vec<(usize, usize)>,
@@ -51,8 +61,12 @@ pub struct Tolerance<'a> {
 }
 
 impl Component {
-    /// Of the coordinates of a group, driven ones left out, with its contacts.
-    pub fn new(world: &World, group: Vec<usize>, contacts: Vec<Candidate>) -> Self {
+    /// Of the coordinates of a group, driven ones left out, with its contacts among all that are closed.
+    pub fn new(world: &World, group: Vec<usize>, contacts: Vec<Candidate>, closed: &[Closed]) -> Self {
+        let opposed = |c: &Candidate| {
+            closed.iter().map(|other| other.candidate).find(|other| are_opposed(world, c, other))
+        };
+        let backs = contacts.iter().map(opposed).collect();
         let (stuck, coordinates): (Vec<usize>, Vec<usize>) = group.into_iter().partition(|&i| world.stuck[i]);
         let holds = |k: &usize| {
             let members = &world.system.coupled[*k].coordinates;
@@ -74,7 +88,7 @@ impl Component {
                 (place(a), place(b))
             })
             .collect();
-        Self { coordinates, stuck, blocks, contacts, bodies, sides, step: Step::default() }
+        Self { coordinates, stuck, blocks, contacts, backs, bodies, sides, step: Step::default() }
     }
 
     /// Evaluates each contact at `q` in turn.
@@ -174,6 +188,11 @@ impl Component {
         let mut equations = ComponentEquations::new(self, world, q, v);
         let start: Small<f64, 8> = step.begin(&mut equations, t, &y)[n..].into();
         let singular = equations.singular;
+        let size = equations.world.system.size;
+        // Gaps are no finer than the positions that make them.
+        let grain = |(q, scale): (&f64, &f64)| GRAIN * f64::EPSILON * (q / scale).abs();
+        let coarsest = q.iter().zip(tolerance.positions).map(grain).fold(0.0, f64::max);
+        let within = size * (BETWEEN * tolerance.relative).max(coarsest);
         let result = loop {
             if h < tolerance.shortest {
                 break None;
@@ -184,8 +203,14 @@ impl Component {
             let factor = if error.is_finite() { (0.9 * error.powf(-0.125)).clamp(0.2, 3.0) } else { 0.1 };
             if error.is_finite() && error <= 1.0 && !equations.singular {
                 let dense = step.dense(&mut equations, t, &y, h);
-                let paths = self.paths(&dense, t, h);
-                break Some(Advance { h, next: h * factor, paths });
+                let between = equations.strays(&dense, (t, h), within) / within;
+                let next = h * factor.min((0.9 * between.powf(-0.125)).clamp(0.2, 3.0));
+                if between <= 1.0 {
+                    let paths = self.paths(&dense, t, h);
+                    break Some(Advance { h, next, paths });
+                }
+                h = next;
+                continue;
             }
             h *= factor.min(0.5);
         };
@@ -256,6 +281,35 @@ struct ComponentEquations<'c, 'w> {
 }
 
 impl<'c, 'w> ComponentEquations<'c, 'w> {
+    /// How far gaps come off zero half way along a step, or off those they had at its start.
+    fn strays(&mut self, dense: &[Polynomial], (t, h): (f64, f64), within: f64) -> f64 {
+        let middle = self.gaps(dense, (t, h), 0.5);
+        let off = middle.iter().fold(0.0, |most: f64, gap| most.max(gap.abs()));
+        if off <= within {
+            return off;
+        }
+        let start = self.gaps(dense, (t, h), 0.0);
+        middle.iter().zip(&start).fold(0.0, |most, (gap, start)| most.max((gap - start).abs()))
+    }
+
+    /// The contacts' gaps at the share `x` of a step.
+    fn gaps(&mut self, dense: &[Polynomial], (t, h): (f64, f64), x: f64) -> Small<f64> {
+        self.follow_drives(t + x * h);
+        for (&i, q) in self.component.coordinates.iter().zip(dense) {
+            self.q[i] = q.at(x);
+        }
+        let mut gaps = Small::new();
+        self.component.each_touch(self.world, &self.q, |touch| gaps.push(touch.state.gap));
+        gaps
+    }
+
+    fn follow_drives(&mut self, t: f64) {
+        for ((i, _), piece) in self.world.drives.iter().zip(&self.world.driven) {
+            let driven = piece.at(t);
+            (self.q[*i], self.v[*i]) = (driven.q, driven.v);
+        }
+    }
+
     fn new(component: &'c Component, world: &'c mut World<'w>, q: &[f64], v: &[f64]) -> Self {
         Self {
             component,
@@ -271,10 +325,7 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
 impl Equations for ComponentEquations<'_, '_> {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let n = self.component.coordinates.len();
-        for (i, drive) in &self.world.drives {
-            let driven = drive.at(t);
-            (self.q[*i], self.v[*i]) = (driven.q, driven.v);
-        }
+        self.follow_drives(t);
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }

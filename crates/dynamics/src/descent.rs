@@ -18,6 +18,9 @@ const MOST: usize = 4000;
 /// Least step, relative to the stretch, while the quantity is zero to rounding.
 const CREEP: f64 = 1e-4;
 
+/// Most halvings of a time in which a quantity that falls from zero may have risen before.
+const HALVINGS: u32 = 50;
+
 /// What a search found: the first zero, and the time before which there is no other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Descent {
@@ -25,41 +28,50 @@ pub struct Descent {
     pub clear_until: f64,
 }
 
-/// The first zero from `from` to `to`. Values within ± `floor` are zero to rounding; a quantity that begins there comes
-/// down only once it was above, or when it falls clearly below.
+/// The first time from `from` to `to` at which the quantity falls through zero, to below `−floor`: what comes no further
+/// is zero to rounding. One that begins within ± `floor` has to rise first, or else falls at once.
 pub fn first_zero(look: impl Fn(f64) -> Look, (from, to): (f64, f64), floor: f64) -> Descent {
-    let (mut t, mut before, mut seen) = (from, from, false);
+    let (mut t, mut above) = (from, None);
     for _ in 0..MOST {
         let Look { x, rate, bend } = look(t);
-        let found = |t: f64| Descent { zero: Some(t), clear_until: t };
-        if seen && x <= floor && rate < 0.0 && x >= -floor {
-            return found((t - x / rate).clamp(before, to));
-        }
         if x < -floor {
-            return found(crossing(&look, (before, t)));
+            let zero = match above {
+                Some(above) => narrow(|t| look(t).x, above, (t, x)).0.0,
+                None => crossing(&look, (from, t)),
+            };
+            return Descent { zero: Some(zero), clear_until: zero };
         }
-        seen |= x > floor;
+        if x > 0.0 {
+            above = Some((t, x));
+        }
         if t >= to {
             break;
         }
         let root = (rate * rate + 2.0 * bend * x.max(0.0)).sqrt();
-        let step = if rate < 0.0 { 2.0 * x.max(0.0) / (root - rate) } else { (rate + root) / bend };
-        let least = if x > floor { 2.0 * f64::EPSILON * (1.0 + t.abs()) } else { CREEP * (to - from) };
+        let safe = if rate < 0.0 { 2.0 * x.max(0.0) / (root - rate) } else { (rate + root) / bend };
+        // Near zero the next look is where the quantity would be as far below as it may be above.
+        let through = if rate < 0.0 { 2.0 * floor / -rate } else { f64::INFINITY };
+        let near = through.min(CREEP * (to - from));
+        let least = 2.0 * f64::EPSILON * (1.0 + t.abs());
         // No bend and no fall: the step is unbounded, or 0/0.
-        let step = if step.is_nan() { to - t } else { step.max(least) };
-        before = t;
-        t = to.min(t + step);
+        let step = if safe.is_nan() { to - t } else { safe.max(if x > floor { least } else { near }) };
+        t = to.min(t + step.max(least));
     }
     Descent { zero: None, clear_until: t }
 }
 
-/// Between a time at which the quantity is not below zero and one at which it is.
+/// Between a time at which the quantity is not below zero and one at which it is. One that begins at zero may rise by
+/// little before it falls: the time looked for is that of the fall.
 fn crossing(look: &impl Fn(f64) -> Look, (good, bad): (f64, f64)) -> f64 {
-    let (start, end) = (look(good).x, look(bad).x);
-    if start <= 0.0 || bad <= good {
-        return good;
+    let (mut share, mut above) = (0.5, (good, look(good).x));
+    for _ in 0..HALVINGS {
+        if above.1 > 0.0 {
+            return narrow(|t| look(t).x, above, (bad, look(bad).x)).0.0;
+        }
+        let t = good + share * (bad - good);
+        (share, above) = (0.5 * share, (t, look(t).x));
     }
-    narrow(|t| look(t).x, (good, start), (bad, end)).0.0
+    good
 }
 
 #[cfg(test)]
@@ -84,6 +96,8 @@ mod tests {
         assert!((first_zero(rises, (0.0, 3.0), 1e-12).zero.unwrap() - 1.0).abs() < 1e-11);
         let stays = |_: f64| Look { x: 0.0, rate: 0.0, bend: 0.0 };
         assert_eq!(first_zero(stays, (0.0, 3.0), 1e-12).zero, None);
+        let hops = |t: f64| Look { x: t * (1e-3 - t), rate: 0.0, bend: 1e-9 };
+        assert!((first_zero(hops, (0.0, 1.0), 1e-9).zero.unwrap() - 1e-3).abs() < 1e-11);
         let falls = |t: f64| Look { x: -t, rate: -1.0, bend: 0.0 };
         assert_eq!(first_zero(falls, (0.0, 3.0), 1e-12).zero, Some(0.0));
     }

@@ -20,6 +20,7 @@ mod inertia;
 mod linear;
 mod march;
 mod minima;
+mod opposed;
 mod pace;
 mod path;
 mod place;

@@ -5,7 +5,8 @@
 
 use crate::clearance::Gap;
 use crate::pace::{GapPace, Pace};
-use crate::search::{BAND, CLOSED, MOST_STEPS};
+use crate::root::narrow;
+use crate::search::{BAND, CLOSED, INEXACT, MOST_STEPS};
 use crate::sight::Sight;
 use crate::world::{Touch, World};
 use mainspring_mechanism::{Approach, Candidate, Feature, Relative, approach};
@@ -27,13 +28,25 @@ pub struct March<'a> {
     /// The contact does not close before this time.
     pub clear: f64,
     looks: usize,
+    /// The last look at which the gap was open, and the gap there.
+    open: Option<(f64, f64)>,
 }
 
 impl<'a> March<'a> {
     /// From time `t`, with bounds of motion until the end of the stretch.
     pub fn new(world: &World<'a>, candidate: &Candidate, pace: Pace, floor: Option<f64>, t: f64) -> Self {
         let (features, waiting) = (world.features(candidate), floor.is_some());
-        Self { candidate: *candidate, features, pace, bounds: None, floor, waiting, clear: t, looks: 0 }
+        Self {
+            candidate: *candidate,
+            features,
+            pace,
+            bounds: None,
+            floor,
+            waiting,
+            clear: t,
+            looks: 0,
+            open: None,
+        }
     }
 
     /// Looks at the contact at the time in sight and moves `clear` on. Returns the time at which the contact closes,
@@ -52,7 +65,10 @@ impl<'a> March<'a> {
             // Bound met: hand the place to the resolver rather than step over it.
             return Some(t);
         }
-        let seen = self.approach(world, relative);
+        let mut seen = self.approach(world, relative);
+        if seen.gap.abs() <= INEXACT * world.system.size && sight.hold(world) {
+            seen = self.approach(world, &sight.relative());
+        }
         let gap = seen.gap - self.floor.unwrap_or(0.0);
         // Late in a run the clock's own grain moves the gap by more than `CLOSED`.
         let closed = CLOSED * world.system.size + 8.0 * f64::EPSILON * t.abs() * seen.rate.abs();
@@ -61,6 +77,12 @@ impl<'a> March<'a> {
         if touching && self.is_real(world, sight, real) {
             return Some(t);
         }
+        if gap < -closed
+            && let Some(at) = self.passed(world, sight, gap, real)
+        {
+            return Some(at);
+        }
+        self.open = (gap > closed).then_some((t, gap));
         let (a, b) = self.features;
         let radius = a.shape.radius().max(b.shape.radius());
         let step = self.safe_step(&seen, gap, closed, (end - t, radius), world.system.size);
@@ -73,6 +95,23 @@ impl<'a> March<'a> {
         }
         self.clear = t + step.max(2.0 * f64::EPSILON * t.abs());
         None
+    }
+
+    /// Along a step of the integrator rates are the slopes of gaps only to its tolerance, and a look can come to lie
+    /// just past a zero: the time of the zero, if the contact is real there.
+    fn passed(
+        &self,
+        world: &mut World<'a>,
+        sight: &mut Sight<'_, '_, 'a>,
+        gap: f64,
+        real: Real,
+    ) -> Option<f64> {
+        let (t, open) = (sight.t, self.open?);
+        let zero = narrow(|t| self.gap_at(t, world, sight), open, (t, gap)).1.0;
+        sight.move_to(world, zero);
+        let closes = self.is_real(world, sight, real);
+        sight.move_to(world, t);
+        closes.then_some(zero)
     }
 
     fn approach(&self, world: &mut World, relative: &Relative) -> Approach {
@@ -178,7 +217,11 @@ impl<'a> March<'a> {
 
     fn gap_at(&self, t: f64, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>) -> f64 {
         sight.move_to(world, t);
-        self.approach(world, &sight.relative()).gap - self.floor.unwrap_or(0.0)
+        let mut gap = self.approach(world, &sight.relative()).gap;
+        if gap.abs() <= INEXACT * world.system.size && sight.hold(world) {
+            gap = self.approach(world, &sight.relative()).gap;
+        }
+        gap - self.floor.unwrap_or(0.0)
     }
 
     fn margin(&self, world: &mut World, sight: &Sight) -> f64 {

@@ -1,9 +1,11 @@
 //! The first contact along a motion: lists of near candidates one after the other, and a march along each candidate.
 //! Contacts whose features stay apart by their lever arms alone are not evaluated at all.
 
+use crate::component::Component;
 use crate::flight::State;
 use crate::linear::Small;
 use crate::march::{March, Real};
+use crate::opposed::are_opposed;
 use crate::pace::Pace;
 use crate::path::Path;
 use crate::sight::Sight;
@@ -21,6 +23,10 @@ pub const OVERLAP: f64 = 1e-6;
 pub const BAND: f64 = 1e-9;
 /// Most evaluations along one contact and stretch.
 pub const MOST_STEPS: usize = 2000;
+
+/// Along steps of the integrator contacts keep to zero only to this, relative to the machine's size. What is nearer is
+/// looked at where the closed contacts hold the parts.
+pub const INEXACT: f64 = 2e-7;
 
 /// A contact found to close.
 #[derive(Clone, Copy, Debug)]
@@ -48,8 +54,11 @@ impl Watch {
 }
 
 /// The motion over a stretch: one path a coordinate.
+#[derive(Clone, Copy)]
 pub struct Stretch<'p> {
     pub paths: &'p [Path],
+    /// What moves in contact along steps of the integrator.
+    pub components: &'p [(Component, f64)],
     pub from: f64,
     pub to: f64,
 }
@@ -81,7 +90,7 @@ pub fn first_closing(
     let mut length = first_piece(world, stretch, &moving);
     let mut from = stretch.from;
     for _ in 0..MOST_STEPS {
-        let piece = Stretch { paths: stretch.paths, from, to: stretch.to.min(from + length) };
+        let piece = Stretch { from, to: stretch.to.min(from + length), ..*stretch };
         found = Found { closing: None, clear_until: piece.to };
         for &interaction in &moving {
             look_along(world, interaction, &piece, watched, real, &mut found);
@@ -150,13 +159,16 @@ fn within_reach<'a>(
 ) -> Small<March<'a>, 8> {
     let sides = world.travelled(interaction, &sight.q);
     let farthest = sides[0] + sides[1] + pace.total() * (end - sight.t);
+    let closed = || sight.stretch.components.iter().flat_map(|c| &c.0.contacts);
     let mut marches = Small::new();
     for candidate in world.listed(interaction).iter().filter(|c| c.distance <= farthest) {
         let shares = world.shares(candidate);
         let pace = pace.shared(shares);
         let reach = sides[0] * shares[0] + sides[1] * shares[1] + pace.total() * (end - sight.t);
         let watch = watched.iter().find(|w| w.0 == candidate.id).map(|w| w.1);
-        if candidate.distance <= reach && watch != Some(Watch::Closed) {
+        // A contact opposed to a closed one stays as far open as it is.
+        let apart = || closed().any(|c| are_opposed(world, c, candidate));
+        if candidate.distance <= reach && watch != Some(Watch::Closed) && !apart() {
             let floor = watch.and_then(Watch::floor);
             marches.push(March::new(world, candidate, pace, floor, sight.t));
         }

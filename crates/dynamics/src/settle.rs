@@ -10,6 +10,7 @@ use crate::complementarity::{Solution, solve, solve_bounded};
 use crate::energy::kinetic;
 use crate::inertia::{Freedom, Inertia};
 use crate::linear::{Cholesky, Small};
+use crate::opposed::hold_between;
 use crate::place::representatives;
 use crate::search::{OVERLAP, TOGETHER};
 use crate::simulation::Mode;
@@ -116,7 +117,7 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
     if let Some(rate) = instant.chattering {
         // At rest all that touches counts: also a corner that was on its way off a face.
         let touches = choose(world, instant, &near, &vec![0.0; v.len()]);
-        quieten((&inertia, &freedom), instant, rate, &touches, v);
+        quieten((world, &inertia), instant, rate, &touches, v, &mut out);
     }
     let touches = choose(world, instant, &near, v);
     hold(world, instant, &touches, v, &mut out);
@@ -144,6 +145,7 @@ pub fn forces_at(
 ) -> Vec<Closed> {
     let mut world = World::new(system, source);
     world.set_dry(&mode.stuck, &mode.sliding);
+    world.follow_drives(t);
     let placed = world.place_all(q);
     let touches: Vec<Touch> =
         mode.closed.iter().map(|c| world.touch_among(&c.candidate, q, &placed)).collect();
@@ -218,11 +220,7 @@ fn impact(
     out.solved &= solution.solved;
     let mut change = vec![0.0; v.len()];
     inertia.add_forces(&rows, &solution.lambda, &mut change);
-    out.loss += kinetic(world.system, instant.q, &change);
-    for &(i, _) in &world.drives {
-        let pressed: f64 = rows.iter().zip(&solution.lambda).map(|(row, l)| row.at(i) * l).sum();
-        out.work += v[i] * (inertia.momentum(i, &change) - pressed);
-    }
+    account((world, inertia), instant, (&rows, &solution.lambda), (v, &change), out);
     for i in (0..v.len()).filter(|&i| !world.moved.is_held(i)) {
         v[i] += change[i];
         if v[i].abs() <= 1e-13 * instant.speeds[i] {
@@ -236,14 +234,30 @@ fn impact(
     true
 }
 
+/// What a change of velocities by impulses takes, ½ Δq̇ᵀ M Δq̇, and what drives do in it.
+fn account(
+    (world, inertia): (&World, &Inertia),
+    instant: &Instant,
+    (rows, impulses): (&[Row], &[f64]),
+    (v, change): (&[f64], &[f64]),
+    out: &mut Settled,
+) {
+    out.loss += kinetic(world.system, instant.q, change);
+    for &(i, _) in &world.drives {
+        let pressed: f64 = rows.iter().zip(impulses).map(|(row, l)| row.at(i) * l).sum();
+        out.work += v[i] * (inertia.momentum(i, change) - pressed);
+    }
+}
+
 /// Ends a chatter: velocities that keep every touching contact with a small rate closed, nearest in the metric of
-/// inertia. The energy this takes is below what can be told apart.
+/// inertia. The energy this takes is next to nothing.
 fn quieten(
-    (inertia, freedom): (&Inertia, &Freedom),
+    (world, inertia): (&World, &Inertia),
     instant: &Instant,
     rate: f64,
     touches: &[Touch],
     v: &mut [f64],
+    out: &mut Settled,
 ) {
     let bound = |t: &Touch| rate.min(CHATTERING * reach_of(&t.row(), instant.speeds));
     let slow = touches.iter().filter(|t| t.rate(v).abs() <= bound(t));
@@ -256,9 +270,13 @@ fn quieten(
     }
     let Some(factor) = Cholesky::new(inertia.inverse(&rows), rows.len()) else { return };
     let rates: Vec<f64> = rows.iter().map(|r| -r.dot(v)).collect();
-    inertia.add_forces(&rows, &factor.solve(&rates), v);
+    let impulses = factor.solve(&rates);
+    let mut change = vec![0.0; v.len()];
+    inertia.add_forces(&rows, &impulses, &mut change);
+    account((world, inertia), instant, (&rows, &impulses), (v, &change), out);
+    v.iter_mut().zip(&change).for_each(|(v, change)| *v += change);
     let all: Vec<usize> = (0..rows.len()).collect();
-    stop_locked(freedom, &rows, &all, v);
+    stop_locked(&world.moved, &rows, &all, v);
 }
 
 /// As many independent active contacts as coordinates they touch: nothing there can move, unless a drive moves it.
@@ -340,6 +358,7 @@ fn hold(world: &mut World, instant: &Instant, touches: &[Touch], v: &[f64], out:
             out.closed.push(Closed { candidate, gap: touch.state.gap, force, active: force > 0.0 });
         }
     }
+    hold_between(world, &touches, (instant.q, v), &mut out.closed);
 }
 
 /// Directions in which free coordinates with dry friction slide: by their velocities, or as they have just let go.
@@ -377,7 +396,7 @@ impl<'t, 'a> Balance<'t, 'a> {
     ) -> Self {
         let inertia = Inertia::whole(world.system, &world.moved, (q, v));
         let mut acceleration = vec![0.0; q.len()];
-        world.prescribe(t, &mut acceleration);
+        world.prescribe_onset(t, &mut acceleration);
         for i in (0..q.len()).filter(|&i| world.moved.is_alone(i)) {
             acceleration[i] = world.acceleration_alone(i, q[i], v[i]);
         }

@@ -1,5 +1,6 @@
 //! The two bodies of an interaction followed along the paths of a stretch.
 
+use crate::component::Component;
 use crate::linear::Small;
 use crate::search::Stretch;
 use crate::world::{Pair, World};
@@ -16,6 +17,8 @@ pub struct Sight<'s, 'p, 'a> {
     pub placed: Pair<'a>,
     /// Which of the two bodies move at all.
     moving: (bool, bool),
+    /// Is the state that of `hold`?
+    held: bool,
 }
 
 impl<'s, 'p, 'a> Sight<'s, 'p, 'a> {
@@ -33,7 +36,7 @@ impl<'s, 'p, 'a> Sight<'s, 'p, 'a> {
         let bodies = &world.system.bodies;
         let moves = |body: usize| bodies[body].chain.iter().any(|j| !stretch.paths[j.coordinate].is_rest());
         let placed = (Placed::new(&bodies[a], &q), Placed::new(&bodies[b], &q));
-        Self { interaction, stretch, t, q, v, dv, placed, moving: (moves(a), moves(b)) }
+        Self { interaction, stretch, t, q, v, dv, placed, moving: (moves(a), moves(b)), held: false }
     }
 
     /// Looks at another time.
@@ -41,7 +44,7 @@ impl<'s, 'p, 'a> Sight<'s, 'p, 'a> {
         if t == self.t {
             return;
         }
-        self.t = t;
+        (self.t, self.held) = (t, false);
         for arm in &world.arms[self.interaction] {
             let path = &self.stretch.paths[arm.coordinate];
             if !path.is_rest() {
@@ -50,6 +53,10 @@ impl<'s, 'p, 'a> Sight<'s, 'p, 'a> {
                 self.dv[arm.coordinate] = acceleration;
             }
         }
+        self.place(world);
+    }
+
+    fn place(&mut self, world: &World<'a>) {
         let (a, b) = world.system.interactions[self.interaction].bodies;
         let bodies = &world.system.bodies;
         if self.moving.0 {
@@ -58,6 +65,30 @@ impl<'s, 'p, 'a> Sight<'s, 'p, 'a> {
         if self.moving.1 {
             self.placed.1 = Placed::new(&bodies[b], &self.q);
         }
+    }
+
+    /// Moves the bodies to where the closed contacts hold them, which steps of the integrator tell only to their
+    /// tolerance. False if nothing holds them, or they are there already.
+    pub fn hold(&mut self, world: &mut World<'a>) -> bool {
+        let components = self.stretch.components;
+        let arms = &world.arms[self.interaction];
+        let holds = |c: &Component| arms.iter().any(|arm| c.coordinates.contains(&arm.coordinate));
+        let holding: Small<&Component> =
+            components.iter().map(|c| &c.0).filter(|c| !c.contacts.is_empty() && holds(c)).collect();
+        if self.held || holding.is_empty() {
+            return false;
+        }
+        let states = self.stretch.paths.iter().map(|path| path.at(self.t));
+        let (mut q, mut v): (Vec<f64>, Vec<f64>) = states.map(|s| (s.q, s.v)).unzip();
+        for component in holding {
+            component.project(world, &mut q, &mut v);
+        }
+        for arm in &world.arms[self.interaction] {
+            (self.q[arm.coordinate], self.v[arm.coordinate]) = (q[arm.coordinate], v[arm.coordinate]);
+        }
+        self.held = true;
+        self.place(world);
+        true
     }
 
     /// The first body's motion seen from the second.

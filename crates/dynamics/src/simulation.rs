@@ -9,7 +9,7 @@ use crate::flight::{Flight, State};
 use crate::halts::{Halts, halted};
 use crate::inertia::Inertia;
 use crate::minima::{Minimum, MinimumFinder};
-use crate::path::{DrivenPath, Path, Piece, Trajectory};
+use crate::path::{Path, Piece, Trajectory};
 use crate::place::is_standing;
 use crate::ranges::Track;
 use crate::rest::{AT_REST, free_energy, longest_swing, rest_time};
@@ -230,12 +230,23 @@ impl<'a> Simulation<'a> {
         let to = self.rest_time(to);
         let (at, change) = self.next_event(to);
         self.commit(at);
-        if change.is_some() || self.t >= self.next_knot {
+        if change.is_some() || self.t >= self.next_knot || self.slips() {
             self.resolve(change);
         } else {
             self.tend();
         }
         None
+    }
+
+    /// Does a coordinate move that contacts alone held at rest, so that nothing told in which direction?
+    fn slips(&self) -> bool {
+        let world = &self.world;
+        let loose = |&i: &usize| {
+            let rested =
+                world.system.forces.coulomb[i] > 0.0 && world.sliding[i] == 0.0 && !world.free.is_held(i);
+            rested && self.v[i].abs() > self.halted(i)
+        };
+        (0..self.v.len()).any(|i| loose(&i))
     }
 
     /// Why equations cannot be solved: parts that a drive locks, or else nobody knows.
@@ -295,7 +306,7 @@ impl<'a> Simulation<'a> {
             .map(|c| (c.candidate.id, self.watch_closed(c)))
             .chain(self.released.iter().map(|&(id, floor)| (id, Watch::Released { floor })))
             .collect();
-        let stretch = Stretch { paths: &self.paths, from: self.t, to };
+        let stretch = Stretch { paths: &self.paths, components: &self.components, from: self.t, to };
         let speeds = &self.speeds;
         let mut real = |world: &mut World, touch: &crate::world::Touch, q: &[f64], v: &[f64]| {
             is_standing(world, touch, q, v, speeds)
@@ -312,7 +323,7 @@ impl<'a> Simulation<'a> {
             first = None;
         }
         first = halts.first.map(|(t, halt)| (t, Change::of_halt(halt))).or(first);
-        let stretch = Stretch { paths: &self.paths, from: self.t, to };
+        let stretch = Stretch { paths: &self.paths, components: &self.components, from: self.t, to };
         for (component, _) in &self.components {
             let limit = first.map_or(to, |f| f.0);
             let found = first_change(&mut self.world, component, &Stretch { to: limit, ..stretch });
@@ -382,12 +393,12 @@ impl<'a> Simulation<'a> {
             |world: &World, id, paths: &[Path]| world.coordinates_of(id).any(|i| !paths[i].is_rest());
         let mut changed = false;
         for k in 0..self.closed.len() {
-            let Closed { candidate, active, .. } = self.closed[k];
+            let Closed { candidate, active, gap, .. } = self.closed[k];
             if !active && moving(&self.world, candidate.id, &self.paths) {
                 let (a, b) = self.world.place(&candidate, &self.q);
                 let touch = self.world.touch_at(&candidate, &self.q, (&a, &b));
                 let off = touch.margin(self.world.system.size) < 0.0;
-                changed |= touch.state.gap.abs() > open || off;
+                changed |= (touch.state.gap - gap).abs() > open || off;
             }
         }
         if changed {
@@ -436,9 +447,9 @@ impl<'a> Simulation<'a> {
         self.v = v;
         self.events.extend(entries(&self.world, self.t, &self.closed, &settled));
         self.energy.work += settled.work;
+        self.energy.impacts += settled.loss;
         if !settled.impulses.is_empty() {
             self.stats.impacts += 1;
-            self.energy.impacts += settled.loss;
             self.minima.impact(settled.loss, self.t);
         }
         if !settled.solved {
@@ -469,13 +480,11 @@ impl<'a> Simulation<'a> {
 
     /// Paths of driven coordinates from now on, and when to look again.
     fn set_drives(&mut self) {
-        self.next_knot = f64::INFINITY;
+        self.next_knot = self.world.follow_drives(self.t);
         for k in 0..self.world.drives.len() {
-            let (i, drive) = self.world.drives[k];
-            let (path, until) = DrivenPath::new(drive, self.t);
+            let ((i, _), path) = (self.world.drives[k], self.world.driven[k]);
             let rests = path.is_rest();
             self.set_path(i, if rests { Path::Rest { q: path.at(self.t).q } } else { Path::Driven(path) });
-            self.next_knot = self.next_knot.min(until);
         }
     }
 
@@ -500,7 +509,7 @@ impl<'a> Simulation<'a> {
             for &i in group.coordinates.iter().filter(|&&i| settled.stuck[i]) {
                 self.set_path(i, Path::Rest { q: self.q[i] });
             }
-            let component = Component::new(&self.world, group.coordinates, contacts);
+            let component = Component::new(&self.world, group.coordinates, contacts, &settled.closed);
             self.components.push((component, self.t));
         }
         let moved = self.world.moved.clone();

@@ -7,7 +7,7 @@ use crate::linear::Small;
 use crate::root::narrow;
 use crate::search::Stretch;
 use crate::world::{Touch, World};
-use mainspring_mechanism::ContactId;
+use mainspring_mechanism::{Candidate, ContactId};
 
 /// Why a stretch ends before its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,8 +106,12 @@ impl Probe<'_, '_, '_> {
         let state = (self.q.as_slice(), self.v.as_slice());
         let forces = self.component.forces(world, t, state, &mut self.acceleration, margin);
         self.lambda = forces.unwrap_or_default();
-        for (measure, force) in measures.iter_mut().step_by(2).zip(&self.lambda) {
-            *measure = *force;
+        for (k, back) in self.component.backs.iter().enumerate() {
+            // What is held from both sides is held whichever of them carries the force.
+            measures[2 * k] = if back.is_some() { 1.0 } else { self.lambda.get(k).copied().unwrap_or(0.0) };
+            if let Some(back) = back {
+                measures[2 * k + 1] = measures[2 * k + 1].min(self.margin(world, back));
+            }
         }
         for k in 0..self.component.stuck.len() {
             measures.push(world.system.forces.coulomb[self.component.stuck[k]] - self.held(world, k).abs());
@@ -127,8 +131,13 @@ impl Probe<'_, '_, '_> {
             return self.measure_all(world, t)[i];
         }
         self.move_to(world, t);
+        let own = self.margin(world, &self.component.contacts[i / 2]);
+        self.component.backs[i / 2].map_or(own, |back| own.min(self.margin(world, &back)))
+    }
+
+    /// How far a contact still is from running off its feature, where last moved to.
+    fn margin(&self, world: &mut World, contact: &Candidate) -> f64 {
         let size = world.system.size;
-        let contact = &self.component.contacts[i / 2];
         let (a, b) = world.place(contact, &self.q);
         world.touch_at(contact, &self.q, (&a, &b)).margin(size) + PAST_END * size
     }
@@ -139,8 +148,15 @@ impl Probe<'_, '_, '_> {
             self.measure_all(world, t);
             return Change::Gives(self.component.stuck[k], -self.held(world, k).signum());
         }
-        let id = self.component.contacts[i / 2].id;
-        if i.is_multiple_of(2) { Change::Unloaded(id) } else { Change::RanOff(id) }
+        let contact = &self.component.contacts[i / 2];
+        if i.is_multiple_of(2) {
+            return Change::Unloaded(contact.id);
+        }
+        self.move_to(world, t);
+        match self.component.backs[i / 2] {
+            Some(back) if self.margin(world, &back) < self.margin(world, contact) => Change::RanOff(back.id),
+            _ => Change::RanOff(contact.id),
+        }
     }
 
     /// The time after `good` at which measure `i` turns negative, given a later time at which it is.

@@ -4,6 +4,7 @@
 //! move no faster than their lever arms allow, so until the arms have travelled r no other contact can close.
 
 use crate::inertia::Freedom;
+use crate::path::DrivenPath;
 use mainspring_mechanism::{
     Approach, Candidate, ContactId, ContactSource, Drive, Feature, GapKind, GapState, MAX_CHAIN, Motion,
     Placed, Relative, Row, System, approach, gap_state,
@@ -36,6 +37,9 @@ impl Arm {
     }
 }
 
+/// The moment after a start from rest at which a drive shows where it goes, relative to the length of its piece.
+const ONSET: f64 = 1e-6;
+
 #[derive(Clone, Debug, Default)]
 struct NearList {
     /// Positions of the arms' coordinates when the list was made; empty before the first.
@@ -53,6 +57,8 @@ pub struct World<'a> {
     near: Vec<NearList>,
     /// Coordinates of prescribed motion.
     pub drives: Vec<(usize, &'a Drive)>,
+    /// Their present pieces, which equations follow up to the very end of a piece: accelerations jump there.
+    pub driven: Vec<DrivenPath>,
     /// All coordinates move freely but those driven.
     pub moved: Arc<Freedom>,
     /// At present: those stuck by dry friction are held as well.
@@ -120,11 +126,25 @@ impl<'a> World<'a> {
         let drives: Vec<(usize, &Drive)> =
             system.forces.drives.iter().enumerate().filter_map(|(i, d)| Some((i, d.as_ref()?))).collect();
         let n = system.coordinates.len();
+        let pieces = drives.iter().map(|(_, drive)| DrivenPath::new(drive, 0.0).0).collect();
         let driven = (0..n).map(|i| drives.iter().any(|d| d.0 == i)).collect();
         let moved = Arc::new(Freedom::new(system, driven));
         let free = moved.clone();
         let (stuck, sliding) = (vec![false; n], vec![0.0; n]);
-        Self { system, source, arms, near, drives, moved, free, stuck, sliding, evaluations: 0, queries: 0 }
+        Self {
+            system,
+            source,
+            arms,
+            near,
+            drives,
+            driven: pieces,
+            moved,
+            free,
+            stuck,
+            sliding,
+            evaluations: 0,
+            queries: 0,
+        }
     }
 
     /// Takes over what dry friction does from now on.
@@ -152,11 +172,33 @@ impl<'a> World<'a> {
         if self.sliding[i] == 0.0 { linear } else { linear + self.dry_force(i) / c.inertia }
     }
 
-    /// Writes the accelerations of driven coordinates at time `t`.
-    pub fn prescribe(&self, t: f64, acceleration: &mut [f64]) {
+    /// Writes the accelerations that drives begin to have at time `t`: one that starts from rest without acceleration,
+    /// but with a jerk, has that of a moment later, which tells where it goes.
+    pub fn prescribe_onset(&self, t: f64, acceleration: &mut [f64]) {
         for (i, drive) in &self.drives {
-            acceleration[*i] = drive.at(t).a;
+            let (now, piece) = (drive.at(t), drive.piece(t));
+            let rests = now.v == 0.0 && now.a.abs() <= 1e-9 * drive.bounds(t, piece.until).1;
+            let moment = if rests && piece.until.is_finite() { ONSET * (piece.until - t) } else { 0.0 };
+            acceleration[*i] = drive.at(t + moment).a;
         }
+    }
+
+    /// Writes the accelerations of driven coordinates at time `t` within the present pieces.
+    pub fn prescribe(&self, t: f64, acceleration: &mut [f64]) {
+        for ((i, _), piece) in self.drives.iter().zip(&self.driven) {
+            acceleration[*i] = piece.state(t).1;
+        }
+    }
+
+    /// Goes on to the pieces that hold at time `t` and just after; returns when the first of them ends.
+    pub fn follow_drives(&mut self, t: f64) -> f64 {
+        let mut end = f64::INFINITY;
+        for ((_, drive), piece) in self.drives.iter().zip(&mut self.driven) {
+            let until;
+            (*piece, until) = DrivenPath::new(drive, t);
+            end = end.min(until);
+        }
+        end
     }
 
     /// The features of a contact.

@@ -9,6 +9,7 @@ use crate::source::DirectSearch;
 use crate::system::{Body, Coordinate, Joint, Motion};
 use crate::tree::FeatureTree;
 use mainspring_geometry::{CurveId, Vec2};
+use std::collections::BTreeMap;
 
 /// Curves of two bodies that are no contact features of this pair: surfaces of their lower pair, gear envelopes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -66,18 +67,15 @@ impl System {
     /// features named in an exclusion of their pair.
     pub fn new(coordinates: Vec<Coordinate>, bodies: Vec<Body>, exclusions: &[Exclusion], size: f64) -> Self {
         let features: Vec<Vec<Feature>> = bodies.iter().map(|b| features(&b.outline, size)).collect();
+        let excluded = by_pair(exclusions);
         let mut interactions = Vec::new();
         for i in 0..bodies.len() {
             for j in i + 1..bodies.len() {
                 if bodies[i].chain == bodies[j].chain {
                     continue;
                 }
-                let excluded: Vec<CurveId> = exclusions
-                    .iter()
-                    .filter(|e| e.bodies == (i, j) || e.bodies == (j, i))
-                    .flat_map(|e| e.curves.iter().copied())
-                    .collect();
-                interactions.extend(interaction((i, j), &bodies, &features, &excluded, size));
+                let excluded = excluded.get(&(i, j)).map_or(&[][..], Vec::as_slice);
+                interactions.extend(interaction((i, j), &bodies, &features, excluded, size));
             }
         }
         let forces = Forces::none(coordinates.len());
@@ -94,6 +92,15 @@ impl System {
     pub fn direct_search(&self) -> DirectSearch<'_> {
         DirectSearch { interactions: &self.interactions, features: &self.features }
     }
+}
+
+/// Curves that are no contact features, by pair of bodies, the lesser first; in the order of the exclusions.
+fn by_pair(exclusions: &[Exclusion]) -> BTreeMap<(usize, usize), Vec<CurveId>> {
+    let mut found: BTreeMap<(usize, usize), Vec<CurveId>> = BTreeMap::new();
+    for Exclusion { bodies: (i, j), curves } in exclusions {
+        found.entry((*i.min(j), *i.max(j))).or_default().extend(curves);
+    }
+    found
 }
 
 fn interaction(

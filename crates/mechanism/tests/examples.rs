@@ -228,3 +228,20 @@ fn machines_are_the_same_anywhere_in_space() {
         assert!(m.parts.iter().all(|p| p.outline.is_some()), "{place}");
     }
 }
+
+/// A part that hangs on nothing may be anywhere near where it is drawn: that concerns it alone.
+#[test]
+fn a_loose_part_leaves_the_others_interactions_as_they_are() {
+    let text = example_text("rotary-to-reciprocating");
+    let whole = compile(&text);
+    let loose = text.replace(
+        "rocker = wheel asb arm asb frame",
+        "block = blo() at (movx=5.2)\nrocker = wheel asb arm asb frame asb block",
+    );
+    assert_ne!(loose, text);
+    let found = compile(&loose).interactions();
+    let (with, without): (Vec<_>, Vec<_>) = found.into_iter().partition(|pair| pair.1 == 3);
+    assert_eq!(without, whole.interactions());
+    assert_eq!(without, [(0, 1)]);
+    assert!(with.contains(&(0, 3)), "{with:?}");
+}

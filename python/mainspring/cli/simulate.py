@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import mainspring as ms
+from mainspring import counting
 from mainspring.cli import opening, output, tables, values
 from mainspring.cli.faults import Stopped, Usage
 from mainspring.cli.progress import watch
@@ -111,10 +112,9 @@ def account(mechanism: "ms.Mechanism", result: Simulation, stats: Mapping[str, f
     ended = _ENDED.get(result.status, result.status)
     changes = sum(e.kind != "impact" for e in result.events)
     print(f"{mechanism.name}: the run {ended}, t = {tables.signed(result.t, 8)} s.")
-    print(
-        f"{result.stats['impacts']} impacts, {changes} contact changes, "
-        f"{len(result.kinetic_energy_minima)} minima of kinetic energy."
-    )
+    struck = counting.impacts(result.stats["impacts"], len(result.events) - changes)
+    told = counting.number_of(changes, "contact change")
+    print(f"{struck}, {told}, {counting.minima(len(result.kinetic_energy_minima))}.")
     rows = (
         (
             p,

@@ -48,8 +48,9 @@ def _plots(
     time = plots.time_axis(shown)
     beside = beside_film(shown, other) if other else None
     panels = [plots.panel(c, shown, time) for c in plots.curves(shown, motions, colour, beside)]
-    note = " <small>of its largest, minima marked</small>"
-    panels.append(plots.panel(plots.energy_curve(shown), shown, time, list(run.kinetic_energy_minima), note))
+    minima = list(run.kinetic_energy_minima)
+    note = f" <small>{plots.energy_note(shown, len(minima))}</small>"
+    panels.append(plots.panel(plots.energy_curve(shown), shown, time, minima, note))
     for pair, spans in sorted(touched.spans.items()):
         blows = [e.t for e in run.events if e.kind == "impact" and tuple(sorted(e.parts)) == pair]
         label = " touches ".join(name(p, colour) for p in pair)

@@ -9,6 +9,8 @@ from mainspring.report.sampling import Film, Floats
 from mainspring.report.words import escape
 
 DEEPEST = -9
+_HARDLY = 0.1  # above this share of its largest an energy is drawn on an even scale
+_CONSTANT = 1e-9
 
 
 @dataclass(frozen=True)
@@ -41,10 +43,20 @@ def curves(
 
 
 def energy_curve(film: Film) -> Curve:
-    """Return the kinetic energy relative to its largest value, as a power of ten."""
-    largest = float(film.kinetic.max()) or 1.0
-    values = np.log10(np.maximum(film.kinetic / largest, 10.0**DEEPEST))
+    """Return the kinetic energy relative to its largest value: as a power of ten unless it hardly varies."""
+    shares = film.kinetic / (float(film.kinetic.max()) or 1.0)
+    least = float(shares.min())
+    if least > _HARDLY:
+        return Curve("kinetic energy", "pk", lengths(least, 1.0), shares)
+    values = np.log10(np.maximum(shares, 10.0**DEEPEST))
     return Curve("kinetic energy", "pk", decades(DEEPEST, 3), values)
+
+
+def energy_note(film: Film, minima: int) -> str:
+    """Return what the plot of the kinetic energy shows, in words."""
+    if np.ptp(film.kinetic) <= _CONSTANT * float(film.kinetic.max()):
+        return "constant"
+    return "of its largest, minima marked" if minima else "of its largest"
 
 
 def line(t: Floats, values: Floats, time: Axis, axis: Axis, width: float, height: float) -> str:
@@ -103,9 +115,9 @@ def _beside(curve: Curve, film: Film, time: Axis) -> str:
 
 
 def panel(curve: Curve, film: Film, time: Axis, minima: list[float] | None = None, note: str = "") -> str:
-    """Return one plot with its own vertical axis; `minima` get dots on the lowest level shown."""
+    """Return one plot with its own vertical axis; `minima` get dots near the lowest level shown."""
     path = line(film.t, curve.values, time, curve.axis, 1000, 100)
-    level = 100 * (1 - curve.axis.share(float(DEEPEST)))
+    level = 100 * (1 - max(0.05, curve.axis.share(float(DEEPEST))))
     drawn = f'{_grid(curve.axis)}<path class="curve" d="{path}"/>{_beside(curve, film, time)}'
     drawn += _dots(minima or [], time, level)
     title = escape(curve.title)

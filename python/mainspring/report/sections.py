@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 
+from mainspring import counting
 from mainspring.comparison import Comparison
 from mainspring.pairs import Axis, Kinematics, Pair
 from mainspring.prediction import Hypothesis, Prediction
@@ -74,7 +75,7 @@ def pattern(result: Simulation | Prediction, motions: Mapping[str, str], colour:
         turns = motions.get(part) == "turn"
         amounts = (_amount(change["position"], turns, ""), _amount(change["velocity"], turns, "/s"))
         rows.append((name(part, colour), *amounts))
-    said = f"<p>Every {figure(p.duration)} s, with {p.minima} minima of kinetic energy:</p>"
+    said = f"<p>Every {figure(p.duration)} s, with {counting.minima(p.minima, p.basis)}:</p>"
     heads = ("part", "position changes by", "velocity changes by")
     return section("What one pattern changes", said, table(heads, rows, (1, 2)))
 

@@ -1,6 +1,7 @@
 //! Machines for the tests, with joints given by hand: contact is tested without relying on what finds the joints.
 #![allow(dead_code)]
 
+pub mod examples;
 pub mod overlap;
 
 use mainspring_dynamics::{Minimum, Options, Run, Simulation};

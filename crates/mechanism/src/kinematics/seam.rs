@@ -6,7 +6,7 @@ use super::subsystems::Subsystem;
 use super::surface::{parallel, perpendicular};
 use crate::interaction::{Exclusion, System};
 use crate::system::{Body, Coordinate, Motion};
-use mainspring_geometry::Vec2;
+use mainspring_geometry::{Outline, Vec2};
 use mainspring_model::Error;
 
 /// Greatest friction, spring constant and force over the inertia, in the file's units.
@@ -49,16 +49,46 @@ impl Mechanism {
     /// As [`Mechanism::coordinates`], inertias and rates apart, and [`Mechanism::bodies`].
     pub fn system_of_shapes(&self) -> Result<System, Error> {
         self.check_motion()?;
+        self.system_beside_loose()
+    }
+
+    /// As [`Mechanism::system_of_shapes`]; nothing is asked of parts that hang on nothing.
+    pub(crate) fn system_beside_loose(&self) -> Result<System, Error> {
+        self.check_pairs()?;
         let coordinates = self.subsystems.iter().map(|s| self.coordinate(s)).collect();
-        Ok(System::new(coordinates, self.bodies()?, &self.exclusions(), self.size))
+        let mut bodies = self.bodies()?;
+        for (i, body) in bodies.iter_mut().enumerate().filter(|(i, _)| self.is_loose(*i)) {
+            let name = self.parts[i].name.clone();
+            *body = Body { name, chain: vec![], outline: Outline::default() };
+        }
+        Ok(System::new(coordinates, bodies, &self.exclusions(), self.size))
+    }
+
+    /// Does a part hang on nothing, or on one that does?
+    pub(crate) fn is_loose(&self, part: usize) -> bool {
+        let mut at = part;
+        for _ in 0..self.parts.len() {
+            if at == self.frame {
+                return false;
+            }
+            match (self.parts[at].joint, self.parts[at].carrier) {
+                (Some(_), Some(carrier)) => at = carrier,
+                _ => return true,
+            }
+        }
+        true
     }
 
     /// Can every part move in the plane, with one freedom of its own?
     fn check_motion(&self) -> Result<(), Error> {
+        self.check_pairs()?;
+        (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_joint(p))
+    }
+
+    fn check_pairs(&self) -> Result<(), Error> {
         self.check_planar()?;
         self.check_carriers()?;
-        self.check_chains()?;
-        (0..self.parts.len()).filter(|p| *p != self.frame).try_for_each(|p| self.check_joint(p))
+        self.check_chains()
     }
 
     pub(crate) fn fail<T>(&self, part: usize, message: String) -> Result<T, Error> {

@@ -80,15 +80,24 @@ impl Mechanism {
     }
 
     /// Parts that can ever touch, by the regions they sweep: pairs of indices, sorted. Where the motion is not
-    /// planar, or not known, all parts whose boxes may meet.
+    /// planar, or not known, all parts whose boxes may meet; likewise for a part that hangs on nothing.
     pub fn interactions(&self) -> Vec<(usize, usize)> {
-        if let Ok(system) = self.system_of_shapes() {
-            return system.interactions.iter().map(|i| i.bodies).collect();
+        let loose: Vec<bool> = (0..self.parts.len()).map(|i| self.is_loose(i)).collect();
+        let Ok(system) = self.system_beside_loose() else { return self.meetings(|_, _| true) };
+        let mut found: Vec<(usize, usize)> = system.interactions.iter().map(|i| i.bodies).collect();
+        if loose.contains(&true) {
+            found.extend(self.meetings(|i, j| loose[i] || loose[j]));
+            found.sort_unstable();
         }
+        found
+    }
+
+    /// Parts whose boxes may meet, among the pairs asked for.
+    fn meetings(&self, asked: impl Fn(usize, usize) -> bool) -> Vec<(usize, usize)> {
         self.with_reach(|parts| {
             let n = self.parts.len();
             let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-            all.filter(|&(i, j)| parts.may_touch(i, j)).collect()
+            all.filter(|&(i, j)| asked(i, j) && parts.may_touch(i, j)).collect()
         })
     }
 
