@@ -40,7 +40,8 @@ fn lobes(n: usize) -> System {
         (0..n)
             .map(|i| {
                 let a = i as f64 * TAU / n as f64;
-                let wave = |(k, (size, phase)): (usize, (f64, f64))| size * ((k + 2) as f64 * a + phase).cos();
+                let wave =
+                    |(k, (size, phase)): (usize, (f64, f64))| size * ((k + 2) as f64 * a + phase).cos();
                 let r = 0.8 + waves.into_iter().enumerate().map(wave).sum::<f64>();
                 let bulge = if i % 2 == 0 { random.next(0.0, 0.3) / n as f64 } else { 0.0 };
                 (x + r * a.cos(), r * a.sin(), bulge)

@@ -41,7 +41,12 @@ fn main() {
                 for w in one.wrong.iter().take(3) {
                     let second = common::oracle::overlap(&system.bodies[0], &system.bodies[1], &w.0);
                     let word = |free: bool| if free { "free" } else { "blocked" };
-                    println!("{name}: wrong at {:?}, called {}, by exact arcs {}", w.0, word(w.1), word(!second));
+                    println!(
+                        "{name}: wrong at {:?}, called {}, by exact arcs {}",
+                        w.0,
+                        word(w.1),
+                        word(!second)
+                    );
                 }
                 total.add(one);
             }
@@ -49,7 +54,16 @@ fn main() {
     }
     println!(
         "{count} pairs ({refused} refused), {} configurations, of these {} near a curve and {} free; {} wrong, {} within 1e-6 of a contact",
-        total.configurations, total.near, total.free, total.wrong.len(), total.forgiven
+        total.configurations,
+        total.near,
+        total.free,
+        total.wrong.len(),
+        total.forgiven
     );
-    println!("maps made in {:.2} ms on average, at most {:.1} ms: {}", 1e3 * made_in / count as f64, 1e3 * slowest.0, slowest.1);
+    println!(
+        "maps made in {:.2} ms on average, at most {:.1} ms: {}",
+        1e3 * made_in / count as f64,
+        1e3 * slowest.0,
+        slowest.1
+    );
 }

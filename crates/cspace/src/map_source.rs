@@ -11,8 +11,7 @@
 //! differ by rounding.
 
 use mainspring_mechanism::{
-    Candidate, ContactSource, DirectSearch, Feature, Joint, Motion, Pose, Relative, System,
-    feature_distance,
+    Candidate, ContactSource, DirectSearch, Feature, Joint, Motion, Pose, Relative, System, feature_distance,
 };
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -143,7 +142,8 @@ impl PairMap {
         if a.len() > 1 || b.len() > 1 {
             return None;
         }
-        let side = |chain: &[Joint], body: usize| Side::new(chain.first(), &system.features[body], system.size);
+        let side =
+            |chain: &[Joint], body: usize| Side::new(chain.first(), &system.features[body], system.size);
         Some(PairMap { sides: [side(a, bodies.0), side(b, bodies.1)], boxes: RefCell::default() })
     }
 }

@@ -118,7 +118,8 @@ fn sizes_from_a_millionth_to_a_million() {
             body("b", vec![turn(1, 2.2 * scale, 0.0)], vec![circle(2.6 * scale, 0.0, 0.8 * scale, true, 1)]),
         ];
         let s = system(bodies, 4.0 * scale);
-        ConfigurationSpace::new(&s, [0, 1], [0, 1], &SpaceOptions::default()).unwrap_or_else(|e| panic!("{e}"))
+        ConfigurationSpace::new(&s, [0, 1], [0, 1], &SpaceOptions::default())
+            .unwrap_or_else(|e| panic!("{e}"))
     };
     let plain = at(1.0);
     for scale in [1e-6, 1e-3, 1e3, 1e6] {

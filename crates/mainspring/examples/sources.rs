@@ -41,7 +41,9 @@ fn row(model: &str, system: &System) {
 }
 
 fn main() {
-    println!("Least milliseconds of {ROUNDS} runs to t = {UNTIL}: contacts from direct search, from a map made on the way,");
+    println!(
+        "Least milliseconds of {ROUNDS} runs to t = {UNTIL}: contacts from direct search, from a map made on the way,"
+    );
     println!("from a map made before; boxes of the map; pairs of bodies with a map.");
     println!("{:>24} {:>10} {:>10} {:>10} {:>8} {:>9}", "", "direct", "map", "map kept", "boxes", "mapped");
     for model in std::env::args().skip(1) {

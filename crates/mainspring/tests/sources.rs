@@ -1,6 +1,8 @@
 //! Trajectories do not depend on where candidates come from: every example, to the last bit.
 
-use mainspring::{CompileOptions, ContactSearch, Machine, Mechanism, SimulationOptions, SimulationResult, simulate};
+use mainspring::{
+    CompileOptions, ContactSearch, Machine, Mechanism, SimulationOptions, SimulationResult, simulate,
+};
 use std::path::PathBuf;
 
 /// All models of the examples.

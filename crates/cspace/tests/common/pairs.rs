@@ -97,12 +97,7 @@ fn sector(random: &mut Random, r: f64, s: f64) -> Vec<Corner> {
     let off = (small(random, -10.0, -2.0), small(random, -10.0, -2.0));
     let at = |r: f64, a: f64, bulge: f64| (off.0 + r * a.cos(), off.1 + r * a.sin(), bulge);
     let bulge = (0.25 * sweep).tan();
-    vec![
-        at(r, start + sweep, -bulge),
-        at(r, start, 0.0),
-        at(s, start, bulge),
-        at(s, start + sweep, 0.0),
-    ]
+    vec![at(r, start + sweep, -bulge), at(r, start, 0.0), at(s, start, bulge), at(s, start + sweep, 0.0)]
 }
 
 /// A bar along `direction`, but for a tiny angle.
@@ -203,9 +198,11 @@ pub fn pair(seed: u64) -> (System, SpaceOptions, String) {
     let named = format!("seed {seed}: parts {i} {j}, joints {joints}, ratio {ratio}");
     let s = system(vec![body("a", ca, a), body("b", cb, b)], 2.0);
     let window = |k: usize| {
-        let slides = s.bodies.iter().flat_map(|b| &b.chain).any(|j| {
-            j.coordinate == k && matches!(j.motion, Motion::Slide { .. })
-        });
+        let slides = s
+            .bodies
+            .iter()
+            .flat_map(|b| &b.chain)
+            .any(|j| j.coordinate == k && matches!(j.motion, Motion::Slide { .. }));
         slides.then_some((-2.0, 2.0))
     };
     let periodic = random.below(2) == 0;
