@@ -173,9 +173,9 @@ pub(crate) fn build(
     let mut checked: HashMap<(u32, u32), bool> = HashMap::new();
     let mut active: Vec<u32> = Vec::new();
     let mut keyed: Vec<(f64, u32)> = Vec::new();
-    for s in 0..slabs.u.len() - 1 {
+    for (s, begin) in starts.iter().enumerate().take(slabs.u.len() - 1) {
         active.retain(|&p| last[p as usize] > s);
-        active.extend(&starts[s]);
+        active.extend(begin);
         let middle = 0.5 * (slabs.u[s] + slabs.u[s + 1]);
         keyed.clear();
         keyed.extend(active.iter().map(|&p| (atlas.v_at(p, middle), p)));

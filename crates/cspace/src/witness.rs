@@ -43,7 +43,8 @@ impl Inside {
             let side = matches!(span, Span::Line { .. }) && span.length() > 1e-6 * size;
             let start = discs.len();
             discs.extend(grown.flatten());
-            thin |= side && discs[start..].iter().all(|d| d.1 < 0.5 * THIN * size);
+            let found = &discs[start..];
+            thin |= side && !found.is_empty() && found.iter().all(|d| d.1 < 0.5 * THIN * size);
         }
         let centers: Vec<_> = discs.iter().map(|d| (d.0, 0.0)).collect();
         let tree = Discs::new(&centers);
