@@ -49,6 +49,7 @@ benchmarks/$(VENV)/ready: benchmarks/requirements.txt
 
 bench: build benchmarks/$(VENV)/ready ## measure time, error and memory on one thread beside MuJoCo and pymunk; takes minutes
 	benchmarks/$(VENV)/bin/python benchmarks/run.py $(BENCH)
+	cargo run --release --quiet -p mainspring --example sources examples/*/*.padl
 
 docs: build ## check the documentation: links, keys, pages without a way to them
 	$(PY) scripts/check_docs.py

@@ -217,6 +217,16 @@ impl Regions {
         })
     }
 
+    /// Do the bodies overlap by no more than `little` (a length): free if moved by that in some direction?
+    pub fn barely_overlap(&self, poses: &[Pose; 2], little: f64) -> bool {
+        let moved = |k: u32| {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_4 + 0.1).sin_cos();
+            let shift = poses[0].shift + Vec2::new(cos, sin) * little;
+            [Pose { shift, ..poses[0] }, poses[1]]
+        };
+        self.overlap(poses) && (0..8).any(|k| !self.overlap(&moved(k)))
+    }
+
     /// Distance of the bodies' boundaries with the spans that are nearest: (distance, pair of sections, spans).
     pub fn nearest(&self, poses: &[Pose; 2]) -> Option<(f64, [(usize, usize); 2])> {
         let rel = relative(&poses[0], &poses[1]);

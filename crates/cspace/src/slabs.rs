@@ -14,6 +14,9 @@ use std::collections::HashMap;
 const BORDER: f64 = 1e-10;
 /// Neighbours nearer than this are the same curve twice (scaled position).
 const TWIN: f64 = 3e-10;
+/// Where in a cell it is tested, in parts of its width and height: at no place that symmetry singles out, for parts that only
+/// touch are not told from parts that overlap.
+const PROBES: [[f64; 2]; 3] = [[0.4713, 0.4387], [0.2371, 0.7193], [0.7639, 0.2617]];
 /// No piece.
 pub(crate) const NONE: u32 = u32::MAX;
 
@@ -170,9 +173,9 @@ pub(crate) fn build(
     let mut checked: HashMap<(u32, u32), bool> = HashMap::new();
     let mut active: Vec<u32> = Vec::new();
     let mut keyed: Vec<(f64, u32)> = Vec::new();
-    for s in 0..slabs.u.len() - 1 {
+    for (s, begin) in starts.iter().enumerate().take(slabs.u.len() - 1) {
         active.retain(|&p| last[p as usize] > s);
-        active.extend(&starts[s]);
+        active.extend(begin);
         let middle = 0.5 * (slabs.u[s] + slabs.u[s + 1]);
         keyed.clear();
         keyed.extend(active.iter().map(|&p| (atlas.v_at(p, middle), p)));
@@ -217,7 +220,13 @@ fn label(
         let side = |p: u32, above: bool| (p != NONE).then(|| atlas.pieces[p as usize].free_above == above);
         let sides = (side(between.lower, true), side(between.upper, false));
         let (low, high) = slabs.extent(atlas, between, middle);
-        let v = 0.5 * (low + high);
+        let probe = |[x, y]: [f64; 2]| {
+            let u = a + x * (b - a);
+            let (low, high) = slabs.extent(atlas, between, u);
+            [u, low + y * (high - low)]
+        };
+        let blocked = |at: [f64; 2]| judge.blocked(at[0], at[1]);
+        let at = probe(PROBES[0]);
         let thick = (high - low) * judge.levers[1] > 1e-6 * atlas.frame.size;
         let wide = (b - a) * judge.levers[0] > 1e-6 * atlas.frame.size;
         let consistent = match sides {
@@ -230,14 +239,20 @@ fn label(
             Some(free) if !(thick && wide) || checked.get(&key) == Some(&free) => free,
             None if !(thick && wide) && sides.0.is_some() => false,
             Some(free) => {
-                if judge.blocked(middle, v) == free {
-                    return Err(SpaceError::Degenerate { at: order([middle, v]) });
+                if blocked(at) == free {
+                    return Err(SpaceError::Degenerate { at: order(at) });
                 }
                 checked.insert(key, free);
                 free
             }
-            None if sides.0.is_some() => return Err(SpaceError::Degenerate { at: order([middle, v]) }),
-            None => !judge.blocked(middle, v),
+            None if sides.0.is_some() => return Err(SpaceError::Degenerate { at: order(at) }),
+            None => {
+                let found = PROBES.map(|p| blocked(probe(p)));
+                if found[0] != found[1] || found[0] != found[2] {
+                    return Err(SpaceError::Degenerate { at: order(at) });
+                }
+                !found[0]
+            }
         };
         slabs.free.push(free);
     }

@@ -149,6 +149,22 @@ fn check(
     Ok(())
 }
 
+/// Configurations at which it is asked whether the bodies touch for ever.
+const ANYWHERE: usize = 24;
+
+/// A configuration in contact where none should be: the bodies touch for ever, at a point on an axis or along a slide.
+fn touching(frame: &Frame, regions: &Regions) -> Option<[f64; 2]> {
+    // Multiples of the plastic number's inverse powers, which fall at no special place.
+    let at = |k: usize, axis: usize| {
+        let part = (0.37 + k as f64 * [0.754_877_666_246_692_7, 0.569_840_290_998_053_3][axis]).fract();
+        frame.axes[axis].start + part * frame.axes[axis].length
+    };
+    (0..ANYWHERE).map(|k| [at(k, 0), at(k, 1)]).find(|q| {
+        let poses = [0, 1].map(|k| frame.moving[k].place(q[k]));
+        regions.barely_overlap(&poses, 1e-9 * frame.size)
+    })
+}
+
 /// The range of one coordinate in scaled positions.
 fn axis(
     k: usize,
@@ -221,6 +237,10 @@ impl Made<'_> {
         if let Some(k) = witnesses.thin() {
             return Err(SpaceError::Thin { body: self.system.bodies[self.reduced.bodies[k]].name.clone() });
         }
+        let ratios = self.frame.moving.map(|m| m.ratio);
+        if let Some([u, v]) = touching(&self.frame, &self.regions) {
+            return Err(SpaceError::Degenerate { at: [u / ratios[0], v / ratios[1]] });
+        }
         let levers =
             [0, 1].map(|k| self.parts[k].iter().map(|p| p.lever).fold(1e-3 * size.min(1.0), f64::max));
         let kind = |i: usize, j: usize| self.contact.kind(i, j);
@@ -238,7 +258,6 @@ impl Made<'_> {
         let equations = catalogue.curves.iter().map(|c| c.eq).collect();
         let elements = std::mem::take(&mut catalogue.elements);
         let atlas = Atlas { frame: self.frame.clone(), pieces, elements, equations };
-        let ratios = self.frame.moving.map(|m| m.ratio);
         let slabs = build(&atlas, &judge, |at| [at[0] / ratios[0], at[1] / ratios[1]])?;
         let links = links(&slabs, &atlas);
         let cells = parts(&slabs, &links);

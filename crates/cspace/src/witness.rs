@@ -40,10 +40,10 @@ impl Inside {
         for (span, convex) in section.spans.iter().zip(section.convex()) {
             let count = 1 + (SAMPLES * span.length() / total).min(SAMPLES) as usize;
             let grown = span.samples(count, *convex).into_iter().map(|(p, n)| grow(section, p, n, size));
-            let side = matches!(span, Span::Line { .. }) && span.length() > 1e-6 * size;
-            let start = discs.len();
             discs.extend(grown.flatten());
-            thin |= side && discs[start..].iter().all(|d| d.1 < 0.5 * THIN * size);
+            let middle = span.samples(1, *convex)[0];
+            let side = matches!(span, Span::Line { .. }) && span.length() > 1e-6 * size;
+            thin |= side && !section.contains(middle.0 + middle.1 * (THIN * size));
         }
         let centers: Vec<_> = discs.iter().map(|d| (d.0, 0.0)).collect();
         let tree = Discs::new(&centers);

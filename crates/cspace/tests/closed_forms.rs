@@ -37,7 +37,7 @@ fn two_eccentric_discs() {
         let t = curve.transmission(0.4);
         let [x, y] = t.at;
         // F = ½|Δ|²: its gradient by hand.
-        let fx = e1 * (x.sin() * d + e2 * (y - x).sin() * -1.0);
+        let fx = e1 * (x.sin() * d - e2 * (y - x).sin());
         let fy = e2 * (-y.sin() * d + e1 * (y - x).sin());
         close(t.ratio, -fx / fy, 1e-9 * (1.0 + t.ratio.abs()));
     }

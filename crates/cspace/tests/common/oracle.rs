@@ -67,8 +67,7 @@ impl Placed {
         let side = (self.b - self.a).cross(p - self.a);
         let beyond = if sweep > 0.0 { side < 0.0 } else { side > 0.0 };
         let inside = (p - c).norm() < r;
-        let between = if sweep.abs() <= PI { beyond && inside } else { beyond && inside };
-        if between { chord + TAU * sweep.signum() } else { chord }
+        if beyond && inside { chord + TAU * sweep.signum() } else { chord }
     }
 }
 
@@ -107,8 +106,11 @@ fn line_circle(a: Vec2, b: Vec2, c: Vec2, r: f64) -> [Option<Vec2>; 2] {
     [disc.sqrt(), -disc.sqrt()].map(|s| Some(a + d * ((s - qb) / (2.0 * qa))))
 }
 
+/// Heights of a layer and its loops.
+pub type PlacedLayer = ((f64, f64), Vec<Vec<Placed>>);
+
 /// All segments of a body at joint positions `q`, layer by layer with heights.
-pub fn placed(body: &Body, q: &[f64]) -> Vec<((f64, f64), Vec<Vec<Placed>>)> {
+pub fn placed(body: &Body, q: &[f64]) -> Vec<PlacedLayer> {
     let map = |mut p: Vec2| {
         for joint in body.chain.iter().rev() {
             let x = q[joint.coordinate] * joint.ratio;

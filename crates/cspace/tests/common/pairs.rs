@@ -188,7 +188,7 @@ pub fn pair(seed: u64) -> (System, SpaceOptions, String) {
     let geared = |joint: Joint| Joint { ratio, ..joint };
     let off = if joints == 4 { random.next(-0.2, 0.2) } else { 0.0 };
     let chains = match joints {
-        0 | 1 | 2 => [vec![turn(0, 0.0, 0.0)], vec![geared(turn(1, x, y))]],
+        0..=2 => [vec![turn(0, 0.0, 0.0)], vec![geared(turn(1, x, y))]],
         3 => [vec![turn(0, 0.0, 0.0)], vec![slide(1, direction.0, direction.1)]],
         4 => [vec![slide(0, direction.0, direction.1)], vec![geared(turn(1, x + off, y))]],
         5 => [vec![slide(0, 0.28, 0.96)], vec![slide(1, direction.0, direction.1)]],
