@@ -46,7 +46,8 @@ def test_a_driven_machine_has_a_plot_that_shows_something(tmp_path):
     assert "of its largest" in page(mechanism, ms.simulate(mechanism, 8.0))
     alone = tmp_path / "alone.padl"
     alone.write_text(
-        "generic m(m)\na = blo(x=6) at (movx=-3, movy=-0.5) dif cyl()\nf = cyl(h=3) at (movz=-1)\nattr f : frame = 1\nm = a asb f\n",
+        "generic m(m)\na = blo(x=6) at (movx=-3, movy=-0.5) dif cyl()\n"
+        "f = cyl(h=3) at (movz=-1)\nattr f : frame = 1\nm = a asb f\n",
         encoding="utf-8",
     )
     driven.write_text("< A : FRAME > 2 0\nSPEED a 90\n", encoding="utf-8")
