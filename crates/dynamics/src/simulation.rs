@@ -530,14 +530,14 @@ impl<'a> Simulation<'a> {
     }
 
     /// Does a group stay where it is: as many contacts as coordinates that move freely, or no force to move it, and no
-    /// drive that moves a part of it?
+    /// drive that moves a part of it? A drive whose lever arm is zero at this instant, as at a dead point, moves it soon.
     fn group_rests(&self, group: &Group, rows: &[Row], settled: &Settled) -> bool {
         let free = group.coordinates.iter().filter(|&&i| !settled.stuck[i]).count();
-        let touched = |i: usize, g: f64| g != 0.0 && !self.paths[i].is_rest() && self.world.moved.is_held(i);
-        let by_contact = group.contacts.iter().any(|&k| rows[k].entries().any(|(i, g)| touched(i, g)));
+        let touched = |i: usize| !self.paths[i].is_rest() && self.world.moved.is_held(i);
+        let by_contact = group.contacts.iter().any(|&k| rows[k].entries().any(|(i, _)| touched(i)));
         let tied = self.world.system.coupled.iter().map(|c| &c.coordinates);
         let mut tied = tied.filter(|c| c.iter().any(|i| group.coordinates.contains(i)));
-        if by_contact || tied.any(|c| c.iter().any(|&i| touched(i, 1.0))) {
+        if by_contact || tied.any(|c| c.iter().any(|&i| touched(i))) {
             return false;
         }
         let movable = |k: &&usize| rows[**k].entries().any(|(i, _)| !self.world.free.is_held(i));
