@@ -97,7 +97,7 @@ def test_changed_machines_repeat_alike(tmp_path, changed):
 
 
 def test_near_the_edge_of_starting_the_models_part(tmp_path):
-    mechanism = _escapement(tmp_path, balance="20 6 SPRING 90 12")
+    mechanism = _escapement(tmp_path, balance="20 6 SPRING 90 10.65")
     answer = ms.predict(mechanism, contact="both", max_time=1000.0)
     assert (answer.rigid.status, answer.compliant.status) == ("comes_to_rest", "repeats")
     assert answer.status == "differ"
