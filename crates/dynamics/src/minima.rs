@@ -31,6 +31,8 @@ pub struct Minimum {
 
 /// Deepest bisection of one stretch.
 const DEEPEST: u32 = 40;
+/// Most samples inside one stretch: where strong damping leaves a power of rounding alone, no division ends by itself.
+const MOST_SAMPLES: usize = 4000;
 
 /// Follows the kinetic energy along a run.
 #[derive(Clone, Debug, Default)]
@@ -164,7 +166,8 @@ impl Motion<'_> {
         let middle = self.sample(0.5 * (from + to));
         let half = 0.5 * (to - from);
         let certain = middle.power.abs() > self.bend(from, to - from) * half;
-        if certain || depth >= DEEPEST || half <= 1e-12 * (1.0 + to.abs()) {
+        let enough = depth >= DEEPEST || samples.len() >= MOST_SAMPLES;
+        if certain || enough || half <= 1e-12 * (1.0 + to.abs()) {
             samples.push(middle);
             return;
         }
@@ -194,5 +197,36 @@ impl Motion<'_> {
     fn zero(&self, from: Sample, to: Sample) -> f64 {
         let (a, b) = narrow(|t| self.sample(t).power, (from.t, from.power), (to.t, to.power));
         if a.1.abs() <= b.1.abs() { a.0 } else { b.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_SAMPLES, Motion, Samples};
+    use crate::flight::{Flight, State};
+    use crate::path::Path;
+    use mainspring_mechanism::{Coordinate, System};
+
+    #[test]
+    fn strong_damping_takes_a_bounded_number_of_samples() {
+        for damping in [1e3, 1e6, 1e9, 1e12, 1e15] {
+            let coordinate = Coordinate {
+                name: "part".into(),
+                inertia: 1.0,
+                damping,
+                stiffness: 1e4,
+                force: -2.0,
+                energy_at_zero: 0.0,
+                position: 0.0,
+                velocity: 1.0,
+            };
+            let system = System::new(vec![coordinate], vec![], &[], 1.0);
+            let start = State { q: 0.0, v: 1.0 };
+            let paths = [Path::Flight(Flight::new(0.0, start, 1.0, damping, 1e4, -2.0))];
+            let motion = Motion { system: &system, paths: &paths, masses: super::chained_masses(&system) };
+            let mut samples = Samples::new();
+            motion.subdivide(0.0, 10.0, 0, &mut samples);
+            assert!(samples.len() <= MOST_SAMPLES + 40, "damping {damping}: {} samples", samples.len());
+        }
     }
 }
