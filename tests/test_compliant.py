@@ -11,6 +11,19 @@ from conftest import ESCAPEMENT, ROOT
 from mainspring.report import page
 from test_report import _Balance
 
+DRAWN = (
+    "cam-flat-follower",
+    "cam-roller-follower",
+    "cam-swinging-follower",
+    "detent",
+    "eccentric-discs",
+    "geneva-four",
+    "geneva-six",
+    "involute-gears",
+    "pin-in-slot",
+    "ratchet-and-pawl",
+    "scotch-yoke",
+)
 SHIPPED = [
     ("escapement/escapement.padl", None, 37.0),
     ("rotary-to-reciprocating/rotary-to-reciprocating.padl", None, 20.0),
@@ -19,6 +32,7 @@ SHIPPED = [
     ("pawl-on-plate/pawl-on-plate.padl", None, 20.0),
     ("pawl-on-plate/pawl-on-plate.padl", "pawl-on-plate/blocked.sup", 100.0),
     ("slide/slide.padl", None, 10.0),
+    *((f"{name}/{name}.toml", None, 8.0) for name in DRAWN),
 ]
 
 
@@ -50,6 +64,7 @@ def test_every_shipped_machine_runs_and_accounts_for_its_energy(model, supplemen
     rigid = ms.simulate(mechanism, until)
     assert run.status == rigid.status
     assert abs(run.energy.residual) < 1e-5
+    assert abs(rigid.energy.residual) < 1e-7
     e = run.energy
     found = e.initial + e.work - e.final - e.contact_stored - e.friction - e.impacts
     assert found / max(e.friction + e.impacts, e.kinetic_max) == pytest.approx(e.residual, abs=1e-9)

@@ -5,8 +5,9 @@ use crate::contact::Contact;
 use crate::energy::Energy;
 use crate::minima::MinimumFinder;
 use crate::ranges::Track;
+use crate::run::{Options, Run, Status};
 use crate::settle::Closed;
-use crate::simulation::{Options, Run, Simulation, Status};
+use crate::simulation::Simulation;
 use mainspring_mechanism::{ContactSource, System};
 
 /// A run in progress.
@@ -49,15 +50,15 @@ impl Engine for Simulation<'_> {
     }
 
     fn now(&self) -> (f64, &[f64], &[f64]) {
-        (self.t, &self.q, &self.v)
+        (self.record.t, &self.q, &self.v)
     }
 
     fn minima(&self) -> &MinimumFinder {
-        &self.minima
+        &self.record.minima
     }
 
     fn energy(&self) -> &Energy {
-        &self.energy
+        &self.record.energy
     }
 
     fn closed(&mut self) -> Vec<Closed> {
@@ -69,12 +70,12 @@ impl Engine for Simulation<'_> {
     }
 
     fn observe(&mut self, longest: f64) {
-        self.track = Some(Track::empty(self.q.len()));
+        self.record.track = Some(Track::empty(self.q.len()));
         self.longest_stretch = longest;
     }
 
     fn track(&mut self) -> &mut Option<Track> {
-        &mut self.track
+        &mut self.record.track
     }
 
     fn finish(self: Box<Self>) -> Run {

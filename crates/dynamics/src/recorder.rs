@@ -6,7 +6,7 @@ use crate::flight::State;
 use crate::minima::MinimumFinder;
 use crate::path::{Path, Piece, Trajectory};
 use crate::ranges::Track;
-use crate::simulation::Mode;
+use crate::run::Mode;
 use crate::work::applied_work;
 use mainspring_mechanism::System;
 

@@ -12,10 +12,12 @@ use crate::inertia::{Freedom, Inertia};
 use crate::linear::{Cholesky, Small};
 use crate::opposed::hold_between;
 use crate::place::representatives;
+use crate::run::Mode;
 use crate::search::{OVERLAP, TOGETHER};
-use crate::simulation::Mode;
 use crate::world::{Touch, World, stop_candidate};
-use mainspring_mechanism::{Candidate, ContactId, ContactSource, Placed, Relative, Row, System};
+use mainspring_mechanism::{
+    Candidate, ContactId, ContactSource, Placed, Relative, Row, System, join_sharing,
+};
 
 /// Rates below this fraction of the speeds at hand count as zero.
 const STILL: f64 = 1e-10;
@@ -319,23 +321,9 @@ pub struct Group {
 
 /// Sorts ties into groups that share coordinates, in a fixed order. Ties without coordinates are left out.
 pub fn groups(ties: Vec<Tie>) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
-    for tie in ties.into_iter().filter(|t| !t.coordinates.is_empty()) {
-        let mut merged = Group { coordinates: tie.coordinates, contacts: tie.contact.into_iter().collect() };
-        let (joined, others): (Vec<Group>, Vec<Group>) =
-            groups.into_iter().partition(|g| g.coordinates.iter().any(|i| merged.coordinates.contains(i)));
-        for g in joined {
-            merged.coordinates.extend(g.coordinates);
-            merged.contacts.extend(g.contacts);
-        }
-        merged.coordinates.sort_unstable();
-        merged.coordinates.dedup();
-        merged.contacts.sort_unstable();
-        groups = others;
-        groups.push(merged);
-    }
-    groups.sort_by(|a, b| a.coordinates.cmp(&b.coordinates));
-    groups
+    let sets = ties.into_iter().map(|tie| (tie.coordinates, tie.contact.into_iter().collect()));
+    let group = |(coordinates, contacts)| Group { coordinates, contacts };
+    join_sharing(sets).into_iter().map(group).collect()
 }
 
 /// Which touching contacts stay closed, with what forces, and what dry friction holds (Gauss's principle).

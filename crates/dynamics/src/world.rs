@@ -190,6 +190,11 @@ impl<'a> World<'a> {
         }
     }
 
+    /// The relative tolerance of steps: `share` of `rtol` where drives act, but no less than rounding allows.
+    pub fn tolerance(&self, rtol: f64, share: f64) -> f64 {
+        if self.drives.is_empty() { rtol } else { rtol.min((share * rtol).max(1e-13)) }
+    }
+
     /// Goes on to the pieces that hold at time `t` and just after; returns when the first of them ends.
     pub fn follow_drives(&mut self, t: f64) -> f64 {
         let mut end = f64::INFINITY;

@@ -2,17 +2,10 @@
 
 mod common;
 
-use common::{close, coordinate, escapement, escapement_with, fig_13, low_minima, slide, system};
-use mainspring_dynamics::{Compliant, EventKind, Options, Run, Status};
-use mainspring_mechanism::{ContactLaw, Coordinate, System};
+use common::{changed_escapements, close, coordinate, escapement, low_minima, push, slide, system};
+use mainspring_dynamics::{EventKind, Run, Status};
+use mainspring_mechanism::{ContactLaw, System};
 use std::f64::consts::PI;
-
-fn push(system: &System, law: ContactLaw, until: f64, rtol: f64) -> Run {
-    let source = system.direct_search();
-    let mut run = Compliant::new(system, &source, law, Options { until, rtol, ..Options::default() });
-    run.run(&mut |_| true);
-    run.into_run()
-}
 
 fn balanced(run: &Run, tolerance: f64) {
     let residual = run.energy.residual();
@@ -159,23 +152,8 @@ fn agrees_with_rigid_contact() {
 /// Changed machines tick as with rigid contact.
 #[test]
 fn changed_machines_agree_with_rigid_contact() {
-    let spring = |c: &mut Coordinate, constant: f64| {
-        let relaxed = c.force / c.stiffness;
-        *c = coordinate(&c.name, c.inertia, c.damping, (constant, relaxed));
-    };
-    type Change<'c> = (&'c dyn Fn(&mut [Coordinate]), f64);
-    let changes: [Change; 6] = [
-        (&|c| spring(&mut c[2], 25.0), 28.518_098_7),
-        (&|c| c[2].inertia = 15.0, 32.258_884_9),
-        (&|c| c[2].inertia = 30.0, 44.961_627_4),
-        (&|c| spring(&mut c[0], 12.0), 36.962_480_7),
-        (&|c| spring(&mut c[0], 30.0), 36.919_732_9),
-        (&|c| c[2].damping = 10.0, 38.026_761_2),
-    ];
-    for (change, rigid) in changes {
-        let mut coordinates = fig_13();
-        change(&mut coordinates);
-        let found = push(&escapement_with(coordinates), law(1.0), rigid + 1.0, 1e-6);
+    for (system, rigid) in changed_escapements() {
+        let found = push(&system, law(1.0), rigid + 1.0, 1e-6);
         close(tenth(&found) / rigid, 1.0, 3e-3);
         balanced(&found, 1e-6);
     }

@@ -3,20 +3,13 @@
 
 mod common;
 
-use common::{bodies, chained, close, coordinate, extrapolate, on_chain, slide, turn};
-use mainspring_dynamics::{Compliant, EventKind, Options, Run, Status};
+use common::{bodies, chained, close, coordinate, extrapolate, on_chain, push, row, slide, turn};
+use mainspring_dynamics::{EventKind, Run, Status};
 use mainspring_geometry::Vec2;
-use mainspring_mechanism::{ContactLaw, Coordinate, Drive, Forces, Joint, Mass, Stop, System, Table};
+use mainspring_mechanism::{ContactLaw, Coordinate, Drive, Forces, Mass, Stop, System, Table};
 use std::f64::consts::{PI, TAU};
 
 const G: f64 = 9.81;
-
-fn push(system: &System, law: ContactLaw, until: f64, rtol: f64) -> Run {
-    let source = system.direct_search();
-    let mut run = Compliant::new(system, &source, law, Options { until, rtol, ..Options::default() });
-    run.run(&mut |_| true);
-    run.into_run()
-}
 
 fn balanced(run: &Run, tolerance: f64) {
     let residual = run.energy.residual();
@@ -122,29 +115,6 @@ fn a_block_lets_go_on_a_rising_beam() {
     close(found.q[1], y[0], 1e-7);
     close(found.v[1], y[1], 1e-7);
     balanced(&found, 1e-7);
-}
-
-fn row(gap: f64, blocks: &[(Coordinate, f64, f64)], drives: Vec<Option<Drive>>) -> System {
-    let names: Vec<String> = (0..blocks.len()).map(|k| format!("b{k}")).collect();
-    let solids: String =
-        (0..blocks.len()).map(|k| format!("b{k} = blo() at (movx={})\n", k as f64 * (1.0 + gap))).collect();
-    let text = format!(
-        "generic m(m)\n{solids}f = blo() at (movy=9)\nattr f : frame = 1\nm = {} asb f\n",
-        names.join(" asb ")
-    );
-    let joints: Vec<(&str, Joint)> =
-        names.iter().enumerate().map(|(k, n)| (n.as_str(), slide(k, 1.0, 0.0))).collect();
-    let mut coordinates: Vec<Coordinate> = blocks.iter().map(|b| b.0.clone()).collect();
-    for (c, b) in coordinates.iter_mut().zip(blocks) {
-        c.force += b.2;
-    }
-    let forces = Forces {
-        coulomb: blocks.iter().map(|b| b.1).collect(),
-        applied: blocks.iter().map(|b| b.2).collect(),
-        drives,
-        ..Forces::none(blocks.len())
-    };
-    System::new(coordinates, bodies(&text, &joints), &[], 10.0).with_forces(forces)
 }
 
 /// Half-swings about ± T/k, each shorter by 2 T/k; a constant force moves what it overcomes; a block below the limit stays.

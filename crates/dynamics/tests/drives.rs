@@ -159,7 +159,10 @@ fn driven_runs_repeat_exactly() {
     let once = || {
         let mut run = Simulation::new(&machine, &source, Options { until: 2.0, ..Options::default() });
         run.run(&mut |_| true);
-        (run.q.clone(), run.energy)
+        {
+            let run = run.into_run();
+            (run.q, run.energy)
+        }
     };
     assert_eq!(once(), once());
 }

@@ -2,32 +2,14 @@
 
 mod common;
 
-use common::{balanced, bodies, chained, close, coordinate, extrapolate, on_chain, run, slide, turn};
+use common::{balanced, chained, close, coordinate, extrapolate, on_chain, run, slide, turn};
 use mainspring_dynamics::Status;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::{Coordinate, Drive, Forces, Joint, System};
 
-/// Blocks in a row along x, `gap` between one and the next; each with its dry friction and a constant force.
+/// Blocks in a row that nothing drives.
 fn row(gap: f64, blocks: &[(Coordinate, f64, f64)]) -> System {
-    let names: Vec<String> = (0..blocks.len()).map(|k| format!("b{k}")).collect();
-    let solids: String =
-        (0..blocks.len()).map(|k| format!("b{k} = blo() at (movx={})\n", k as f64 * (1.0 + gap))).collect();
-    let text = format!(
-        "generic m(m)\n{solids}f = blo() at (movy=9)\nattr f : frame = 1\nm = {} asb f\n",
-        names.join(" asb ")
-    );
-    let joints: Vec<(&str, Joint)> =
-        names.iter().enumerate().map(|(k, n)| (n.as_str(), slide(k, 1.0, 0.0))).collect();
-    let mut coordinates: Vec<Coordinate> = blocks.iter().map(|b| b.0.clone()).collect();
-    for (c, b) in coordinates.iter_mut().zip(blocks) {
-        c.force += b.2;
-    }
-    let forces = Forces {
-        coulomb: blocks.iter().map(|b| b.1).collect(),
-        applied: blocks.iter().map(|b| b.2).collect(),
-        ..Forces::none(blocks.len())
-    };
-    System::new(coordinates, bodies(&text, &joints), &[], 10.0).with_forces(forces)
+    common::row(gap, blocks, vec![None; blocks.len()])
 }
 
 fn mass(m: f64) -> Coordinate {

@@ -4,13 +4,12 @@
 
 mod common;
 
-use common::{balanced, close, escapement, escapement_with, fig_13, low_minima, overlap, run};
+use common::{
+    balanced, changed_escapements, close, escapement, escapement_with, fig_13, low_minima, overlap, run,
+};
 use mainspring_dynamics::{EventKind, Run, Status};
-use mainspring_mechanism::Coordinate;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
-/// Changes the coordinates of a machine.
-type Change<'c> = &'c dyn Fn(&mut [Coordinate]);
 
 const MINIMA: [f64; 10] = [
     3.684_622_024_9,
@@ -90,22 +89,7 @@ fn constant_torque_gives_constant_periods() {
 /// With another balance or mainspring the machine ticks with another period, as calculated independently.
 #[test]
 fn changed_machines_tick_otherwise() {
-    let spring = |c: &mut Coordinate, constant: f64| {
-        let relaxed = c.force / c.stiffness;
-        *c = common::coordinate(&c.name, c.inertia, c.damping, (constant, relaxed));
-    };
-    let changes: [(Change, f64); 6] = [
-        (&|c| spring(&mut c[2], 25.0), 28.518_098_7),
-        (&|c| c[2].inertia = 15.0, 32.258_884_9),
-        (&|c| c[2].inertia = 30.0, 44.961_627_4),
-        (&|c| spring(&mut c[0], 12.0), 36.962_480_7),
-        (&|c| spring(&mut c[0], 30.0), 36.919_732_9),
-        (&|c| c[2].damping = 10.0, 38.026_761_2),
-    ];
-    for (change, expected) in changes {
-        let mut coordinates = fig_13();
-        change(&mut coordinates);
-        let system = escapement_with(coordinates);
+    for (system, expected) in changed_escapements() {
         let found = run(&system, expected + 0.5, 1e-9);
         close(times(&found)[9], expected, 1e-6);
         balanced(&found);

@@ -290,9 +290,9 @@ impl Predictions<'_> {
     fn same_outcome(&self) -> bool {
         let (a, b) = (self.rigid.status(), self.compliant.status());
         let Some(patterns) = self.patterns() else { return a == b && self.same_rest() };
-        let relative = patterns[1].duration / patterns[0].duration - 1.0;
+        let ([m, n], relative) = in_common(patterns);
         let blur = 2.0 * self.rigid.state_match();
-        let alike = |c: &(String, [f64; 2], f64)| (c.1[1] - c.1[0]).abs() <= blur * c.2;
+        let alike = |c: &(String, [f64; 2], f64)| (n * c.1[1] - m * c.1[0]).abs() <= blur * m * c.2;
         relative.abs() <= LASTING && self.changes(patterns).iter().all(alike)
     }
 
@@ -318,9 +318,9 @@ impl Predictions<'_> {
             Outcome::ComesToRest { t, .. } => Some(*t),
             _ => None,
         };
-        let duration = self.patterns().map(|[a, b]| {
-            json!({"rigid": a.duration, "compliant": b.duration, "relative": b.duration / a.duration - 1.0})
-        });
+        let duration = self.patterns().map(
+            |[a, b]| json!({"rigid": a.duration, "compliant": b.duration, "relative": in_common([a, b]).1}),
+        );
         let change = self.patterns().map(|p| {
             let one = |(name, [a, b], _): (String, [f64; 2], f64)| (name, json!(clean(b - a)));
             self.changes(p).into_iter().map(one).collect::<Map<_, _>>()
@@ -337,12 +337,17 @@ impl Predictions<'_> {
 
     fn sentences(&self) -> Vec<String> {
         let Some([a, b]) = self.patterns() else { return vec![self.outcomes()] };
-        let relative = 100.0 * (b.duration / a.duration - 1.0);
+        let ([m, n], relative) = in_common([a, b]);
+        let lasting = match (m, n) {
+            (1.0, 1.0) => String::new(),
+            (1.0, _) => format!("{n} of which last "),
+            _ => format!("which lasts, beside {m} of the former, "),
+        };
         let mut out = vec![format!(
-            "Both repeat: every {} s with rigid contact, every {} s with compliant contact, {}.",
+            "Both repeat: every {} s with rigid contact, every {} s with compliant contact, {lasting}{}.",
             number(a.duration, 6),
             number(b.duration, 6),
-            longer(relative)
+            longer(100.0 * relative)
         )];
         if !self.same_outcome() {
             out.push(
@@ -370,6 +375,14 @@ impl Predictions<'_> {
         }
         format!("W{}, but {b}: here the answer depends on how contact is modelled.", &a[1..])
     }
+}
+
+/// How many repetitions of either pattern last about as long as so many of the other, and by how much they do not:
+/// one model may confirm a pattern that holds several of the other's.
+fn in_common([a, b]: [&Pattern; 2]) -> ([f64; 2], f64) {
+    let ratio = a.duration / b.duration;
+    let times = if ratio >= 1.0 { [1.0, ratio.round()] } else { [(1.0 / ratio).round(), 1.0] };
+    (times, times[1] * b.duration / (times[0] * a.duration) - 1.0)
 }
 
 /// Pairs of bodies that carry force.

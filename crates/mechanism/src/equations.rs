@@ -13,6 +13,7 @@
 //! the scalar trait: dual numbers give the derivatives that an implicit solver needs. Dry friction, stops, contacts
 //! and drives are not in f.
 
+use crate::grouping::join_sharing;
 use crate::interaction::System;
 use crate::placed::MAX_CHAIN;
 use crate::system::{Body, Motion, Pose};
@@ -224,23 +225,9 @@ impl System {
 /// The coordinates that masses tie together, group by group in the order of their first coordinates.
 pub(crate) fn coupled(system: &System) -> Vec<Coupled> {
     let chain = |k: usize| system.bodies[system.forces.masses[k].body].chain.iter().take(MAX_CHAIN);
-    let mut groups: Vec<Coupled> = Vec::new();
-    for k in 0..system.forces.masses.len() {
-        let coordinates = chain(k).map(|j| j.coordinate).collect();
-        let mut merged = Coupled { coordinates, masses: vec![k], places: vec![] };
-        let (joined, others): (Vec<Coupled>, Vec<Coupled>) =
-            groups.into_iter().partition(|g| g.coordinates.iter().any(|i| merged.coordinates.contains(i)));
-        for g in joined {
-            merged.coordinates.extend(g.coordinates);
-            merged.masses.extend(g.masses);
-        }
-        merged.coordinates.sort_unstable();
-        merged.coordinates.dedup();
-        merged.masses.sort_unstable();
-        groups = others;
-        groups.push(merged);
-    }
-    groups.sort_by(|a, b| a.coordinates.cmp(&b.coordinates));
+    let sets = (0..system.forces.masses.len()).map(|k| (chain(k).map(|j| j.coordinate).collect(), vec![k]));
+    let coupled = |(coordinates, masses)| Coupled { coordinates, masses, places: vec![] };
+    let mut groups: Vec<Coupled> = join_sharing(sets).into_iter().map(coupled).collect();
     for group in &mut groups {
         let place = |c: usize| group.coordinates.partition_point(|i| *i < c);
         let places = |k: &usize| {

@@ -26,6 +26,22 @@ pub struct Coordinate {
 }
 
 impl Coordinate {
+    /// One at zero and at rest that nothing acts on.
+    pub fn free(name: impl Into<String>, inertia: f64) -> Self {
+        Self {
+            name: name.into(),
+            inertia,
+            damping: 0.0,
+            stiffness: 0.0,
+            force: 0.0,
+            energy_at_zero: 0.0,
+            position: 0.0,
+            velocity: 0.0,
+        }
+    }
+}
+
+impl Coordinate {
     /// Potential energy of the springs at position `q`.
     pub fn potential(&self, q: f64) -> f64 {
         (0.5 * self.stiffness * q - self.force) * q + self.energy_at_zero

@@ -28,16 +28,7 @@ fn body(chain: Vec<Joint>, outline: Outline) -> Body {
 }
 
 fn system(bodies: Vec<Body>) -> System {
-    let c = |_| Coordinate {
-        name: "c".into(),
-        inertia: 1.0,
-        damping: 0.0,
-        stiffness: 0.0,
-        force: 0.0,
-        energy_at_zero: 0.0,
-        position: 0.0,
-        velocity: 0.0,
-    };
+    let c = |_| Coordinate::free("c", 1.0);
     System::new((0..3).map(c).collect(), bodies, &[], 20.0)
 }
 

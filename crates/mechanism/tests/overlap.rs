@@ -45,16 +45,7 @@ fn outline(corners: &[Vec2]) -> Outline {
 }
 
 fn coordinate() -> Coordinate {
-    Coordinate {
-        name: String::new(),
-        inertia: 1.0,
-        damping: 0.0,
-        stiffness: 0.0,
-        force: 0.0,
-        energy_at_zero: 0.0,
-        position: 0.0,
-        velocity: 0.0,
-    }
+    Coordinate::free("", 1.0)
 }
 
 /// The first body moves by (x, y, angle about its own origin), the second is fixed; or the other way round.

@@ -102,16 +102,7 @@ pub fn body(name: &str, chain: Vec<Joint>, loops: Vec<Loop>) -> Body {
 }
 
 pub fn system(bodies: Vec<Body>, size: f64) -> System {
-    let coordinate = |i: usize| Coordinate {
-        name: format!("q{i}"),
-        inertia: 1.0,
-        damping: 0.0,
-        stiffness: 0.0,
-        force: 0.0,
-        energy_at_zero: 0.0,
-        position: 0.0,
-        velocity: 0.0,
-    };
+    let coordinate = |i: usize| Coordinate::free(format!("q{i}"), 1.0);
     let count = bodies.iter().flat_map(|b| &b.chain).map(|j| j.coordinate + 1).max().unwrap_or(0).max(2);
     System::new((0..count).map(coordinate).collect(), bodies, &[], size)
 }

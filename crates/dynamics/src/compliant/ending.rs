@@ -5,8 +5,8 @@ use crate::contact::Contact;
 use crate::energy::kinetic;
 use crate::recorder::Recorder;
 use crate::rest::{AT_REST, free_energy};
+use crate::run::{Mode, Run, Status};
 use crate::settle::Closed;
-use crate::simulation::{Mode, Run, Status};
 use crate::world::World;
 use mainspring_mechanism::{ContactLaw, ContactSource, System};
 

@@ -10,9 +10,9 @@ use crate::events::{Event, EventKind, moving_together};
 use crate::flight::{Flight, State};
 use crate::halts::halted;
 use crate::path::{DrivenPath, Path};
+use crate::run::Mode;
 use crate::search::CLOSED;
 use crate::settle::Closed;
-use crate::simulation::Mode;
 use mainspring_mechanism::Candidate;
 
 impl Compliant<'_> {

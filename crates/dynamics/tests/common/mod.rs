@@ -4,9 +4,11 @@
 pub mod examples;
 pub mod overlap;
 
-use mainspring_dynamics::{Minimum, Options, Run, Simulation};
+use mainspring_dynamics::{Compliant, Minimum, Options, Run, Simulation};
 use mainspring_geometry::{OutlineRecipe, Rigid3, Vec2};
-use mainspring_mechanism::{Body, Coordinate, Exclusion, Joint, Mass, Motion, System};
+use mainspring_mechanism::{
+    Body, ContactLaw, Coordinate, Drive, Exclusion, Forces, Joint, Mass, Motion, System,
+};
 use mainspring_model::Machine;
 
 /// A coordinate with a spring `(constant, relaxed)`.
@@ -111,6 +113,30 @@ pub fn escapement_with(coordinates: Vec<Coordinate>) -> System {
     System::new(coordinates, bodies, &exclusions, 31.0)
 }
 
+/// The escapement with other balances and mainsprings, and its tenth low minimum with rigid contact, as calculated
+/// independently.
+pub fn changed_escapements() -> Vec<(System, f64)> {
+    let spring = |c: &mut Coordinate, constant: f64| {
+        let relaxed = c.force / c.stiffness;
+        *c = coordinate(&c.name, c.inertia, c.damping, (constant, relaxed));
+    };
+    type Change<'c> = (&'c dyn Fn(&mut [Coordinate]), f64);
+    let changes: [Change; 6] = [
+        (&|c| spring(&mut c[2], 25.0), 28.518_098_7),
+        (&|c| c[2].inertia = 15.0, 32.258_884_9),
+        (&|c| c[2].inertia = 30.0, 44.961_627_4),
+        (&|c| spring(&mut c[0], 12.0), 36.962_480_7),
+        (&|c| spring(&mut c[0], 30.0), 36.919_732_9),
+        (&|c| c[2].damping = 10.0, 38.026_761_2),
+    ];
+    let one = |(change, tenth): Change| {
+        let mut coordinates = fig_13();
+        change(&mut coordinates);
+        (escapement_with(coordinates), tenth)
+    };
+    changes.into_iter().map(one).collect()
+}
+
 /// A system of bodies without surfaces of lower pairs.
 pub fn system(coordinates: Vec<Coordinate>, text: &str, joints: &[(&str, Joint)], size: f64) -> System {
     System::new(coordinates, bodies(text, joints), &[], size)
@@ -125,6 +151,14 @@ pub fn run(system: &System, until: f64, rtol: f64) -> Run {
     let run = run.into_run();
     overlap::assert_free(system, &run);
     run
+}
+
+/// Runs with compliant contact to a time with a tolerance.
+pub fn push(system: &System, law: ContactLaw, until: f64, rtol: f64) -> Run {
+    let source = system.direct_search();
+    let mut run = Compliant::new(system, &source, law, Options { until, rtol, ..Options::default() });
+    run.run(&mut |_| true);
+    run.into_run()
 }
 
 /// Minima below 1e-5 of the greatest kinetic energy so far (those of Algorithm 12).
@@ -196,4 +230,29 @@ impl Random {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
+}
+
+/// Blocks in a row along x, `gap` between one and the next; each with its dry friction and a constant force; drives by
+/// block.
+pub fn row(gap: f64, blocks: &[(Coordinate, f64, f64)], drives: Vec<Option<Drive>>) -> System {
+    let names: Vec<String> = (0..blocks.len()).map(|k| format!("b{k}")).collect();
+    let solids: String =
+        (0..blocks.len()).map(|k| format!("b{k} = blo() at (movx={})\n", k as f64 * (1.0 + gap))).collect();
+    let text = format!(
+        "generic m(m)\n{solids}f = blo() at (movy=9)\nattr f : frame = 1\nm = {} asb f\n",
+        names.join(" asb ")
+    );
+    let joints: Vec<(&str, Joint)> =
+        names.iter().enumerate().map(|(k, n)| (n.as_str(), slide(k, 1.0, 0.0))).collect();
+    let mut coordinates: Vec<Coordinate> = blocks.iter().map(|b| b.0.clone()).collect();
+    for (c, b) in coordinates.iter_mut().zip(blocks) {
+        c.force += b.2;
+    }
+    let forces = Forces {
+        coulomb: blocks.iter().map(|b| b.1).collect(),
+        applied: blocks.iter().map(|b| b.2).collect(),
+        drives,
+        ..Forces::none(blocks.len())
+    };
+    System::new(coordinates, bodies(&text, &joints), &[], 10.0).with_forces(forces)
 }

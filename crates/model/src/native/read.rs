@@ -9,7 +9,7 @@ use super::source::Source;
 use super::syntax::{ParameterNote, definitions};
 use crate::build;
 use crate::description::Density;
-use crate::error::Read;
+use crate::error::{Fault, Read};
 use crate::machine::Machine;
 use crate::resolve::Resolved;
 use crate::syntax::Syntax;
@@ -37,8 +37,8 @@ pub(crate) fn read(text: &str, files: [String; 2]) -> Read<Machine> {
     let (syntax, notes) = found.finish(&name);
     let mut machine = build::build(&syntax, files)?;
     finish(&mut machine, &syntax, &tables, &root)?;
-    annotate(&mut machine, &notes);
     machine.units = units;
+    annotate(&mut machine, &notes)?;
     if let Some(native) = machine.native.as_mut().and_then(Arc::get_mut) {
         native.source = text.to_string();
     }
@@ -62,13 +62,22 @@ fn head(root: &Fields<'_>) -> Read<(String, Units)> {
     Ok((word("name", 100)?.unwrap_or("machine".to_string()), units))
 }
 
-fn annotate(machine: &mut Machine, notes: &[ParameterNote]) {
+fn annotate(machine: &mut Machine, notes: &[ParameterNote]) -> Read<()> {
     // Parameters stand in the order of their definitions, and only they are numbers.
     for (parameter, note) in machine.parameters.iter_mut().zip(notes) {
+        if let Some((written, stated)) = note.unit.as_deref().and_then(|u| machine.units.clash(u)) {
+            let told = format!(
+                "parameter {} is in {written}, in a machine that counts in {stated}; expected {stated}, for nothing \
+                 is converted",
+                parameter.name
+            );
+            return Err(Fault::new(parameter.place, told));
+        }
         parameter.whole = note.whole;
         (parameter.unit, parameter.meaning) = (note.unit.clone(), note.meaning.clone());
     }
     machine.find_defaults();
+    Ok(())
 }
 
 /// What stands beside the solids: frame, densities, drawings, what acts.
