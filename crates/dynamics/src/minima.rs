@@ -202,7 +202,7 @@ impl Motion<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MOST_SAMPLES, Motion, Samples};
+    use super::{DEEPEST, MOST_SAMPLES, Motion, Samples};
     use crate::flight::{Flight, State};
     use crate::path::Path;
     use mainspring_mechanism::{Coordinate, System};
@@ -226,7 +226,11 @@ mod tests {
             let motion = Motion { system: &system, paths: &paths, masses: super::chained_masses(&system) };
             let mut samples = Samples::new();
             motion.subdivide(0.0, 10.0, 0, &mut samples);
-            assert!(samples.len() <= MOST_SAMPLES + 40, "damping {damping}: {} samples", samples.len());
+            assert!(
+                samples.len() <= MOST_SAMPLES + 2 * DEEPEST as usize,
+                "damping {damping}: {} samples",
+                samples.len()
+            );
         }
     }
 }
