@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
@@ -38,10 +39,26 @@ class Trajectory:
     """
 
     parts: tuple[str, ...]
-    t: Floats = field(repr=False)
-    q: Floats = field(repr=False)
-    v: Floats = field(repr=False)
     _run: _core.Run = field(repr=False)
+
+    @cached_property
+    def t(self) -> Floats:
+        """Accepted step and event times, `(n,)`."""
+        return self._run.times()
+
+    @cached_property
+    def _states(self) -> State:
+        return State(*self._run.sample(self.t))
+
+    @property
+    def q(self) -> Floats:
+        """Positions at the times `t`, `(n, parts)`, in radians or the file's length."""
+        return self._states.q
+
+    @property
+    def v(self) -> Floats:
+        """Velocities at the times `t`, `(n, parts)`; after the blow at an impact."""
+        return self._states.v
 
     def at(self, t: ArrayLike) -> State:
         """Evaluate the motion at any times within the run, to the accuracy of the run itself.
@@ -173,8 +190,6 @@ def result_of(run: _core.Run) -> Simulation:
     """Wrap a run of the core."""
     text = run.json(False)
     o = parse(text)
-    t = run.times()
-    q, v = run.sample(t)
     events = (
         Event(
             e["t"],
@@ -199,7 +214,7 @@ def result_of(run: _core.Run) -> Simulation:
         energy=Energy(**o["energy"]),
         forces=tuple(frozen(f) for f in o["forces"]) if "forces" in o else None,
         contact=frozen(o["contact"]) if "contact" in o else None,
-        trajectory=Trajectory(tuple(run.parts), t, q, v, run),
+        trajectory=Trajectory(tuple(run.parts), run),
     )
 
 
