@@ -34,6 +34,7 @@ mod search;
 mod settle;
 mod sight;
 mod simulation;
+mod sweep;
 mod tableau;
 mod watch;
 mod work;

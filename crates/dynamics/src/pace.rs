@@ -114,6 +114,11 @@ impl Pace {
         self.sides[0].speed + self.sides[1].speed
     }
 
+    /// Greatest rate at which the two bodies turn against each other.
+    pub fn turning(&self) -> f64 {
+        self.sides[0].turning + self.sides[1].turning
+    }
+
     /// Greatest acceleration of features of the two bodies along their paths.
     pub fn acceleration(&self) -> f64 {
         self.sides[0].acceleration + self.sides[1].acceleration

@@ -9,8 +9,9 @@ use crate::opposed::are_opposed;
 use crate::pace::Pace;
 use crate::path::Path;
 use crate::sight::Sight;
+use crate::sweep::{only_mover, sweep_along};
 use crate::world::{Arm, World};
-use mainspring_mechanism::{Candidate, ContactId};
+use mainspring_mechanism::{Candidate, ContactId, Relative, misses_cone};
 
 /// A gap this small, relative to the machine's size, is closed.
 pub const CLOSED: f64 = 1e-13;
@@ -45,7 +46,7 @@ pub enum Watch {
 }
 
 impl Watch {
-    fn floor(self) -> Option<f64> {
+    pub fn floor(self) -> Option<f64> {
         match self {
             Watch::Closed => None,
             Watch::Released { floor } => Some(floor),
@@ -61,6 +62,8 @@ pub struct Stretch<'p> {
     pub components: &'p [(Component, f64)],
     pub from: f64,
     pub to: f64,
+    /// Radians past the ends of cones at which contacts still count.
+    pub outside: f64,
 }
 
 /// What a search found.
@@ -82,26 +85,36 @@ pub fn first_closing(
 ) -> Found {
     let moves =
         |world: &World, i: usize| world.arms[i].iter().any(|a| !stretch.paths[a.coordinate].is_rest());
-    let moving: Small<usize> = (0..world.arms.len()).filter(|&i| moves(world, i)).collect();
     let mut found = Found { closing: None, clear_until: stretch.to };
+    let mut moving: Small<usize> = Small::new();
+    for i in (0..world.arms.len()).filter(|&i| moves(world, i)).collect::<Small<usize>>() {
+        match only_mover(world, i, stretch) {
+            Some(coordinate) => sweep_along(world, (i, coordinate), stretch, watched, real, &mut found),
+            None => moving.push(i),
+        }
+    }
     if moving.is_empty() {
         return found;
     }
+    let stretch = &Stretch { to: found.clear_until, ..*stretch };
     let mut length = first_piece(world, stretch, &moving);
     let mut from = stretch.from;
     for _ in 0..MOST_STEPS {
         let piece = Stretch { from, to: stretch.to.min(from + length), ..*stretch };
-        found = Found { closing: None, clear_until: piece.to };
+        let mut first = Found { closing: None, clear_until: piece.to };
         for &interaction in &moving {
-            look_along(world, interaction, &piece, watched, real, &mut found);
+            look_along(world, interaction, &piece, watched, real, &mut first);
         }
-        if found.closing.is_some() || found.clear_until < piece.to || piece.to >= stretch.to {
+        if first.closing.is_some() || first.clear_until < piece.to {
+            return first;
+        }
+        if piece.to >= stretch.to {
             return found;
         }
         from = piece.to;
         length *= 2.0;
     }
-    found
+    Found { closing: None, clear_until: from }
 }
 
 /// A time in which no feature moves further than a twentieth of the machine's size, by present speeds.
@@ -159,6 +172,8 @@ fn within_reach<'a>(
 ) -> Small<March<'a>, 8> {
     let sides = world.travelled(interaction, &sight.q);
     let farthest = sides[0] + sides[1] + pace.total() * (end - sight.t);
+    let relative = Relative::pose(&sight.placed.0.pose, &sight.placed.1.pose);
+    let turn = pace.turning() * (end - sight.t) + sight.stretch.outside + 1e-6;
     let closed = || sight.stretch.components.iter().flat_map(|c| &c.0.contacts);
     let mut marches = Small::new();
     for candidate in world.listed(interaction).iter().filter(|c| c.distance <= farthest) {
@@ -168,7 +183,9 @@ fn within_reach<'a>(
         let watch = watched.iter().find(|w| w.0 == candidate.id).map(|w| w.1);
         // A contact opposed to a closed one stays as far open as it is.
         let apart = || closed().any(|c| are_opposed(world, c, candidate));
-        if candidate.distance <= reach && watch != Some(Watch::Closed) && !apart() {
+        let (a, b) = world.features(candidate);
+        let misses = || misses_cone(candidate.kind, a, b, &relative, turn);
+        if candidate.distance <= reach && watch != Some(Watch::Closed) && !misses() && !apart() {
             let floor = watch.and_then(Watch::floor);
             marches.push(March::new(world, candidate, pace, floor, sight.t));
         }

@@ -213,8 +213,13 @@ impl<'a> Simulation<'a> {
             .map(|c| (c.candidate.id, self.watch_closed(c)))
             .chain(self.released.iter().map(|&(id, floor)| (id, Watch::Released { floor })))
             .collect();
-        let stretch =
-            Stretch { paths: &self.record.paths, components: &self.components, from: self.record.t, to };
+        let stretch = Stretch {
+            paths: &self.record.paths,
+            components: &self.components,
+            from: self.record.t,
+            to,
+            outside: 0.0,
+        };
         let speeds = &self.speeds;
         let mut real = |world: &mut World, touch: &crate::world::Touch, q: &[f64], v: &[f64]| {
             is_standing(world, touch, q, v, speeds)
@@ -231,8 +236,13 @@ impl<'a> Simulation<'a> {
             first = None;
         }
         first = halts.first.map(|(t, halt)| (t, Change::of_halt(halt))).or(first);
-        let stretch =
-            Stretch { paths: &self.record.paths, components: &self.components, from: self.record.t, to };
+        let stretch = Stretch {
+            paths: &self.record.paths,
+            components: &self.components,
+            from: self.record.t,
+            to,
+            outside: 0.0,
+        };
         for (component, _) in &self.components {
             let limit = first.map_or(to, |f| f.0);
             let found = first_change(&mut self.world, component, &Stretch { to: limit, ..stretch });

@@ -5,6 +5,7 @@
 
 use crate::inertia::Freedom;
 use crate::path::DrivenPath;
+use crate::sweep::Places;
 use mainspring_mechanism::{
     Approach, Candidate, ContactId, ContactSource, Drive, Feature, GapKind, GapState, MAX_CHAIN, Motion,
     Placed, Relative, Row, System, approach, gap_state,
@@ -55,6 +56,8 @@ pub struct World<'a> {
     source: &'a dyn ContactSource,
     pub arms: Vec<Vec<Arm>>,
     near: Vec<NearList>,
+    /// For each interaction where contacts lie along the motion of one coordinate.
+    pub places: Vec<Places>,
     /// Coordinates of prescribed motion.
     pub drives: Vec<(usize, &'a Drive)>,
     /// Their present pieces, which equations follow up to the very end of a piece: accelerations jump there.
@@ -123,6 +126,7 @@ impl<'a> World<'a> {
     pub fn new(system: &'a System, source: &'a dyn ContactSource) -> Self {
         let arms: Vec<Vec<Arm>> = (0..system.interactions.len()).map(|i| arms(system, i)).collect();
         let near = vec![NearList::default(); arms.len()];
+        let places = vec![Places::default(); arms.len()];
         let drives: Vec<(usize, &Drive)> =
             system.forces.drives.iter().enumerate().filter_map(|(i, d)| Some((i, d.as_ref()?))).collect();
         let n = system.coordinates.len();
@@ -136,6 +140,7 @@ impl<'a> World<'a> {
             source,
             arms,
             near,
+            places,
             drives,
             driven: pieces,
             moved,

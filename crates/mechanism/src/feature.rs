@@ -43,6 +43,21 @@ impl Cone {
             Cone::Wide { middle, cos_half } => middle.dot(d) - cos_half,
         }
     }
+
+    /// Does the unit vector `d` stay outside as long as it turns by no more than `turn` (radians)? Narrow cones are told
+    /// only up to half a radian; false where it is not known.
+    pub fn misses(&self, d: Vec2, turn: f64) -> bool {
+        match self {
+            Cone::Full => false,
+            Cone::Narrow { start, end } => {
+                // The cone widened by at least `turn` at both ends, still narrower than half a turn.
+                let tan = turn * (1.0 + 0.4 * turn * turn);
+                let before = start.cross(d) + tan * start.dot(d) < 0.0;
+                turn <= 0.5 && (before || d.cross(*end) + tan * end.dot(d) < 0.0)
+            }
+            Cone::Wide { middle, cos_half } => middle.dot(d) < cos_half - turn,
+        }
+    }
 }
 
 /// The shape of a feature, in the coordinates of the part as modelled.

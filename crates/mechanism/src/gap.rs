@@ -115,6 +115,23 @@ pub fn gap_state(kind: GapKind, a: &Feature, b: &Feature, pose_a: &Pose, pose_b:
     }
 }
 
+/// Do the features stay so turned against each other that they cannot touch, while the first body turns by no more than
+/// `turn` (radians) seen from the second? Told of contacts against edges; false where it is not known.
+#[inline]
+pub fn misses_cone(kind: GapKind, a: &Feature, b: &Feature, second_from_first: &Pose, turn: f64) -> bool {
+    let GapKind::RoundEdge { swapped } = kind else { return false };
+    let (round, edge) = if swapped { (b, a) } else { (a, b) };
+    let (FeatureShape::Round { cone, .. }, FeatureShape::Edge { normal, .. }) = (&round.shape, &edge.shape)
+    else {
+        unreachable!("kind fits shapes")
+    };
+    let inward = -*normal;
+    cone.misses(
+        if swapped { second_from_first.rotate(inward) } else { second_from_first.rotate_back(inward) },
+        turn,
+    )
+}
+
 fn edge_state(
     round: &Feature,
     round_pose: &Pose,

@@ -11,6 +11,9 @@ use crate::tree::FeatureTree;
 use mainspring_geometry::{CurveId, Vec2};
 use std::collections::BTreeMap;
 
+/// Pairs of features up to which an interaction lists all.
+const MOST_PAIRS: usize = 512;
+
 /// Curves of two bodies that are no contact features of this pair: surfaces of their lower pair, gear envelopes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Exclusion {
@@ -29,6 +32,8 @@ pub struct Interaction {
     pub levers: ([f64; MAX_CHAIN], [f64; MAX_CHAIN]),
     /// For each feature of either body, how far it moves at most as a fraction of the greatest lever arm.
     pub shares: (Vec<f64>, Vec<f64>),
+    /// All pairs of features that can ever touch, in order; empty where there are more than `MOST_PAIRS`.
+    pub pairs: Vec<(u32, u32, GapKind)>,
     /// Which features are no surfaces of the bodies' own pair.
     usable: (Vec<bool>, Vec<bool>),
     height_tolerance: f64,
@@ -130,6 +135,13 @@ fn interaction(
         return None;
     }
     let chosen_b: Vec<usize> = (0..fb.len()).filter(|&j| chosen_a.iter().any(|&i| meets(i, j))).collect();
+    let pairs = chosen_a.iter().flat_map(|&i| chosen_b.iter().map(move |&j| (i, j)));
+    let kind = |i: usize, j: usize| GapKind::of(&fa[i], &fb[j]).map(|kind| (i as u32, j as u32, kind));
+    let mut pairs: Vec<_> =
+        pairs.filter(|&(i, j)| meets(i, j)).filter_map(|(i, j)| kind(i, j)).take(MOST_PAIRS + 1).collect();
+    if pairs.len() > MOST_PAIRS {
+        pairs.clear();
+    }
     let levers = (levers(a, shared, fa, &chosen_a), levers(b, shared, fb, &chosen_b));
     let greatest = |levers: &[f64; MAX_CHAIN]| levers.get(shared).copied().unwrap_or(0.0);
     let shares = (
@@ -138,7 +150,7 @@ fn interaction(
     );
     let trees = (FeatureTree::new(fa, chosen_a), FeatureTree::new(fb, chosen_b));
     let usable = (fa.iter().map(usable).collect(), fb.iter().map(usable).collect());
-    Some(Interaction { bodies: pair, trees, levers, shares, usable, height_tolerance })
+    Some(Interaction { bodies: pair, trees, levers, shares, pairs, usable, height_tolerance })
 }
 
 /// How many joints both chains begin with: these move both bodies alike, and nothing between them depends on it.

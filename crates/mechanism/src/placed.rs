@@ -3,6 +3,7 @@
 //! For a point p fixed on the body and joints j along its chain, `∂p/∂q_j = r_j (p − o_j)^⊥` for a turn about o_j
 //! and `r_j d_j` for a slide along d_j, where o_j and d_j are carried by the joints before j.
 
+use crate::places::Sway;
 use crate::system::{Body, Joint, Motion, Pose};
 use mainspring_geometry::Vec2;
 
@@ -121,6 +122,14 @@ impl<'b> Placed<'b> {
         let mut at = self.at;
         at.rotate_left(first.min(MAX_CHAIN));
         Self { pose: self.pose, chain: &self.chain[first..], at }
+    }
+
+    /// How the joint of a coordinate moves the body from where it is, and its ratio; None if no joint does or several do.
+    pub fn sway(&self, coordinate: usize) -> Option<(Sway, f64)> {
+        let mut own = self.joints().filter(|j| j.0.coordinate == coordinate);
+        let (joint, at, turns) = own.next()?;
+        let sway = if turns { Sway::Turn { center: at } } else { Sway::Slide { direction: at } };
+        own.next().is_none().then_some((sway, joint.ratio))
     }
 
     fn joints(&self) -> impl Iterator<Item = (&Joint, Vec2, bool)> {

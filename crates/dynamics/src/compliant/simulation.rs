@@ -272,7 +272,8 @@ impl<'a> Compliant<'a> {
             self.strict[i] = self.stepper.stretch.strict_path(k);
         }
         let t = self.record.t;
-        let stretch = crate::search::Stretch { paths: &self.strict, components: &[], from: t, to };
+        let stretch =
+            crate::search::Stretch { paths: &self.strict, components: &[], from: t, to, outside: FLUSH };
         let (speeds, overlaps) = (&self.speeds, &self.overlaps);
         let mut real = |world: &mut World, touch: &Touch, q: &[f64], v: &[f64]| {
             let state = &touch.state;
