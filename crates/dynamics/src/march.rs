@@ -9,7 +9,7 @@ use crate::root::narrow;
 use crate::search::{BAND, CLOSED, INEXACT, MOST_STEPS};
 use crate::sight::Sight;
 use crate::world::{Touch, World};
-use mainspring_mechanism::{Approach, Candidate, Feature, Relative, approach};
+use mainspring_mechanism::{Approach, Candidate, Feature, Relative, approach, gap_between};
 
 /// Decides whether a contact that comes to zero is one: on its features, and standing for its place.
 pub type Real<'r> = &'r mut dyn FnMut(&mut World, &Touch, &[f64], &[f64]) -> bool;
@@ -217,11 +217,17 @@ impl<'a> March<'a> {
 
     fn gap_at(&self, t: f64, world: &mut World<'a>, sight: &mut Sight<'_, '_, 'a>) -> f64 {
         sight.move_to(world, t);
-        let mut gap = self.approach(world, &sight.relative()).gap;
+        let mut gap = self.gap_in_sight(world, sight);
         if gap.abs() <= INEXACT * world.system.size && sight.hold(world) {
-            gap = self.approach(world, &sight.relative()).gap;
+            gap = self.gap_in_sight(world, sight);
         }
         gap - self.floor.unwrap_or(0.0)
+    }
+
+    fn gap_in_sight(&self, world: &mut World, sight: &Sight) -> f64 {
+        world.evaluations += 1;
+        let pose = Relative::pose(&sight.placed.0.pose, &sight.placed.1.pose);
+        gap_between(self.candidate.kind, self.features.0, self.features.1, &pose)
     }
 
     fn margin(&self, world: &mut World, sight: &Sight) -> f64 {

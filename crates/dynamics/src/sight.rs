@@ -79,7 +79,7 @@ impl<'s, 'p, 'a> Sight<'s, 'p, 'a> {
             return false;
         }
         let states = self.stretch.paths.iter().map(|path| path.at(self.t));
-        let (mut q, mut v): (Vec<f64>, Vec<f64>) = states.map(|s| (s.q, s.v)).unzip();
+        let (mut q, mut v): (Small<f64, 8>, Small<f64, 8>) = states.map(|s| (s.q, s.v)).unzip();
         for component in holding {
             component.project(world, &mut q, &mut v);
         }

@@ -25,7 +25,7 @@ pub use interaction::{Exclusion, Interaction, System};
 pub use overlap::{Overlaps, Successor, is_on};
 pub use placed::{Field, MAX_CHAIN, MAX_ROW, Placed, PointMotion, Row};
 pub use places::{Place, Sway, places};
-pub use relative::{Approach, Relative, approach};
+pub use relative::{Approach, Relative, approach, gap_between};
 pub use source::{Candidate, ContactId, ContactSource, DirectSearch, feature_distance};
 pub use system::{Body, Coordinate, Joint, Motion, Pose};
 pub use tree::{FeatureTree, Node};

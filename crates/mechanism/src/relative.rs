@@ -119,6 +119,27 @@ pub fn approach(kind: GapKind, a: &Feature, b: &Feature, relative: &Relative) ->
     }
 }
 
+/// The gap alone, the first body seen from the second at `second_from_first`: that of `approach`.
+#[inline]
+pub fn gap_between(kind: GapKind, a: &Feature, b: &Feature, second_from_first: &Pose) -> f64 {
+    let (ra, rb) = (a.shape.radius(), b.shape.radius());
+    let edge_gap = |c: Vec2, radius: f64, edge: &FeatureShape| {
+        let FeatureShape::Edge { from, normal, .. } = *edge else { unreachable!("kind fits shapes") };
+        normal.dot(c - from) - radius
+    };
+    let centers = || (second_from_first.apply(a.shape.anchor()) - b.shape.anchor()).norm();
+    match kind {
+        GapKind::RoundEdge { swapped: false } => {
+            edge_gap(second_from_first.apply(a.shape.anchor()), ra, &b.shape)
+        }
+        GapKind::RoundEdge { swapped: true } => {
+            edge_gap(second_from_first.apply_back(b.shape.anchor()), rb, &a.shape)
+        }
+        GapKind::RoundRound => centers() - (ra + rb),
+        GapKind::RoundHollow { .. } => (ra - rb).abs() - centers(),
+    }
+}
+
 fn to_edge(center: (Vec2, Vec2, Vec2), round: &FeatureShape, edge: &FeatureShape) -> Approach {
     let FeatureShape::Edge { from, tangent, normal, length, .. } = *edge else {
         unreachable!("kind fits shapes")
