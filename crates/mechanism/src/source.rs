@@ -59,58 +59,113 @@ pub struct DirectSearch<'a> {
 impl ContactSource for DirectSearch<'_> {
     fn candidates(&self, interaction: usize, a: &Pose, b: &Pose, reach: f64, found: &mut Vec<Candidate>) {
         let pair = &self.interactions[interaction];
-        let (fa, fb) = (&self.features[pair.bodies.0], &self.features[pair.bodies.1]);
+        let (Some(m), Some(n)) = (pair.trees.0.nodes.first(), pair.trees.1.nodes.first()) else { return };
+        let features = (&self.features[pair.bodies.0][..], &self.features[pair.bodies.1][..]);
         let start = found.len();
         // Poses relative to the second body: its own nodes then need no motion.
         let relative = Relative::pose(a, b);
-        let mut pending = vec![(0usize, 0usize)];
-        if pair.trees.0.nodes.is_empty() || pair.trees.1.nodes.is_empty() {
-            pending.clear();
+        let at = relative.apply(m.center);
+        if !beyond(at - n.center, reach + m.radius + n.radius) {
+            let interaction = interaction as u32;
+            Descent { pair, features, interaction, relative, reach, found }.descend(0, at, 0);
         }
-        while let Some((i, j)) = pending.pop() {
-            let (m, n) = (&pair.trees.0.nodes[i], &pair.trees.1.nodes[j]);
-            if (relative.apply(m.center) - n.center).norm() - m.radius - n.radius >= reach {
-                continue;
-            }
-            match (m.leaf, n.leaf) {
-                (true, true) => {
-                    let ids = (m.link, n.link);
-                    let Some(kind) = pair.kind(ids, (&fa[ids.0], &fb[ids.1])) else { continue };
-                    let distance = feature_distance(kind, &fa[ids.0], &fb[ids.1], &relative);
-                    if distance < reach {
-                        let (first, second) = (ids.0 as u32, ids.1 as u32);
-                        let id = ContactId { interaction: interaction as u32, first, second };
-                        found.push(Candidate { id, kind, distance });
-                    }
+        found[start..].sort_unstable_by_key(|c| c.id);
+    }
+}
+
+/// Squares of distances are compared with this much to spare, so that rounding hides no contact.
+const SPARE: f64 = 1.0 + 1e-9;
+
+/// Is the vector certainly longer than `length`? Without a square root.
+#[inline]
+fn beyond(d: Vec2, length: f64) -> bool {
+    d.dot(d) > SPARE * (length * length)
+}
+
+/// A question on its way down both trees.
+struct Descent<'a> {
+    pair: &'a Interaction,
+    features: (&'a [Feature], &'a [Feature]),
+    interaction: u32,
+    /// The first body seen from the second.
+    relative: Pose,
+    reach: f64,
+    found: &'a mut Vec<Candidate>,
+}
+
+impl Descent<'_> {
+    /// Goes on below two nodes within reach, the first one's centre now at `at`: as deep as both trees, which are balanced.
+    fn descend(&mut self, i: usize, at: Vec2, j: usize) {
+        let (first, second) = (&self.pair.trees.0.nodes, &self.pair.trees.1.nodes);
+        let (m, n) = (&first[i], &second[j]);
+        if m.leaf && n.leaf {
+            self.examine((m.link, n.link), at);
+        } else if n.leaf || (!m.leaf && m.radius >= n.radius) {
+            for child in [i + 1, m.link] {
+                let node = &first[child];
+                let at = self.relative.apply(node.center);
+                if !beyond(at - n.center, self.reach + node.radius + n.radius) {
+                    self.descend(child, at, j);
                 }
-                (false, true) => pending.extend([(m.link, j), (i + 1, j)]),
-                (true, false) => pending.extend([(i, n.link), (i, j + 1)]),
-                _ if m.radius >= n.radius => pending.extend([(m.link, j), (i + 1, j)]),
-                _ => pending.extend([(i, n.link), (i, j + 1)]),
+            }
+        } else {
+            for child in [j + 1, n.link] {
+                let node = &second[child];
+                if !beyond(at - node.center, self.reach + m.radius + node.radius) {
+                    self.descend(i, at, child);
+                }
             }
         }
-        found[start..].sort_by_key(|c| c.id);
+    }
+
+    /// Lists two features if they can make contact and are within reach; the first one's disc is about `at`.
+    fn examine(&mut self, ids: (usize, usize), at: Vec2) {
+        let (a, b) = (&self.features.0[ids.0], &self.features.1[ids.1]);
+        let Some(kind) = GapKind::of(a, b) else { return };
+        let apart = apart(kind, a, b, &self.relative);
+        let sum = a.shape.radius() + b.shape.radius();
+        if beyond(apart, self.reach + sum) || self.pair.kind(ids, (a, b)).is_none() {
+            return;
+        }
+        let distance = distance(kind, (a, b), apart, at);
+        if distance < self.reach {
+            let id = ContactId { interaction: self.interaction, first: ids.0 as u32, second: ids.1 as u32 };
+            self.found.push(Candidate { id, kind, distance });
+        }
     }
 }
 
 /// A lower bound of the distance between two features, the first body seen from the second at `relative`: exact between
 /// a round feature and an edge.
 pub fn feature_distance(kind: GapKind, a: &Feature, b: &Feature, relative: &Pose) -> f64 {
-    let discs = (relative.apply(a.center) - b.center).norm() - a.radius - b.radius;
+    distance(kind, (a, b), apart(kind, a, b, relative), relative.apply(a.center))
+}
+
+/// The same where the centres or centre and edge are `apart` and the first one's disc is about `at`.
+fn distance(kind: GapKind, (a, b): (&Feature, &Feature), apart: Vec2, at: Vec2) -> f64 {
+    let discs = (at - b.center).norm() - a.radius - b.radius;
     let (ra, rb) = (a.shape.radius(), b.shape.radius());
-    let (ca, cb) = (relative.apply(a.shape.anchor()), b.shape.anchor());
     let own = match kind {
-        GapKind::RoundEdge { swapped: false } => segment_distance(ca, b, &Pose::identity()) - ra,
-        GapKind::RoundEdge { swapped: true } => segment_distance(cb, a, relative) - rb,
-        GapKind::RoundRound => (ca - cb).norm() - ra - rb,
-        GapKind::RoundHollow { .. } => ((ca - cb).norm() - ra.max(rb)).abs() - ra.min(rb),
+        GapKind::RoundHollow { .. } => (apart.norm() - ra.max(rb)).abs() - ra.min(rb),
+        _ => apart.norm() - ra - rb,
     };
     own.max(discs)
 }
 
-fn segment_distance(p: Vec2, edge: &Feature, pose: &Pose) -> f64 {
-    let FeatureShape::Edge { from, tangent, length, .. } = edge.shape else { return 0.0 };
-    let (start, along) = (pose.apply(from), pose.rotate(tangent));
+/// From the second feature's centre to the first one's, or from a centre to the nearest point of an edge.
+fn apart(kind: GapKind, a: &Feature, b: &Feature, relative: &Pose) -> Vec2 {
+    match (kind, &a.shape, &b.shape) {
+        (GapKind::RoundEdge { swapped: false }, round, FeatureShape::Edge { from, tangent, length, .. }) => {
+            to_segment(relative.apply(round.anchor()), *from, *tangent, *length)
+        }
+        (GapKind::RoundEdge { swapped: true }, FeatureShape::Edge { from, tangent, length, .. }, round) => {
+            to_segment(round.anchor(), relative.apply(*from), relative.rotate(*tangent), *length)
+        }
+        (_, a, b) => relative.apply(a.anchor()) - b.anchor(),
+    }
+}
+
+fn to_segment(p: Vec2, start: Vec2, along: Vec2, length: f64) -> Vec2 {
     let s = along.dot(p - start).clamp(0.0, length);
-    (start + along * s - p).norm()
+    start + along * s - p
 }
