@@ -1,7 +1,7 @@
 //! The gap's derivatives in closed form against dual numbers, for every kind, for turning and sliding bodies,
 //! and for chains of two joints.
 
-use mainspring_geometry::{Scalar, Vec2};
+use mainspring_geometry::Scalar;
 use mainspring_mechanism::{
     Body, Feature, FeatureShape, GapKind, Joint, Motion, Placed, Relative, approach, features, gap, gap_state,
 };
