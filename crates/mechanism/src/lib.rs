@@ -2,6 +2,7 @@
 
 // Contact: features, gaps, where they may close.
 mod boundary;
+mod constraint;
 mod contact_law;
 mod feature;
 mod gap;
@@ -16,6 +17,7 @@ mod system;
 mod tree;
 
 pub use boundary::Boundary;
+pub use constraint::{Constrained, Constraint, Moving};
 pub use feature::{Cone, Feature, FeatureName, FeatureShape, features};
 pub use gap::{GapKind, GapState, gap, gap_state};
 pub use grouping::join_sharing;
@@ -23,7 +25,7 @@ pub use hessian::Hessian;
 pub use interaction::{Exclusion, Interaction, System};
 pub use overlap::{Overlaps, Successor, is_on};
 pub use placed::{Field, MAX_CHAIN, MAX_ROW, Placed, PointMotion, Row};
-pub use relative::{Approach, Relative, approach};
+pub use relative::{Approach, Relative, approach, gap_between};
 pub use source::{Candidate, ContactId, ContactSource, DirectSearch, feature_distance};
 pub use system::{Body, Coordinate, Joint, Motion, Pose};
 pub use tree::{FeatureTree, Node};

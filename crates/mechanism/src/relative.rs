@@ -104,6 +104,24 @@ pub struct Approach {
     pub centers: f64,
 }
 
+/// The gap of `gap_state` for the pose second_from_first. The kind must be `GapKind::of(a, b)`.
+#[inline]
+pub fn gap_between(kind: GapKind, (a, b): (&Feature, &Feature), pose: &Pose) -> f64 {
+    let (r, s) = (a.shape.radius(), b.shape.radius());
+    let to_edge = |center: Vec2, edge: &Feature, radius: f64| match edge.shape {
+        FeatureShape::Edge { from, normal, .. } => normal.dot(center - from) - radius,
+        _ => unreachable!("kind fits shapes"),
+    };
+    match kind {
+        GapKind::RoundEdge { swapped: false } => to_edge(pose.apply(a.shape.anchor()), b, r),
+        GapKind::RoundEdge { swapped: true } => to_edge(pose.apply_back(b.shape.anchor()), a, s),
+        GapKind::RoundRound => (pose.apply(a.shape.anchor()) - b.shape.anchor()).norm() - (r + s),
+        GapKind::RoundHollow { .. } => {
+            (r - s).abs() - (pose.apply(a.shape.anchor()) - b.shape.anchor()).norm()
+        }
+    }
+}
+
 /// Gap and rates of two features in a relative motion. The kind must be `GapKind::of(a, b)`.
 #[inline]
 pub fn approach(kind: GapKind, a: &Feature, b: &Feature, relative: &Relative) -> Approach {
