@@ -2,9 +2,8 @@
 //! longer be told apart from closed. Every blow counts, also one of a contact that never was seen open since the last
 //! (a flat part that rocks to rest from corner to corner).
 
+use crate::impact::Impulse;
 use crate::search::CLOSED;
-use crate::settle::Impulse;
-use crate::world::World;
 use mainspring_mechanism::ContactId;
 
 /// Closings in a row, each after an excursion of no more than `CLOSED`, that make a chatter.
@@ -17,29 +16,20 @@ pub struct Chatter {
 }
 
 impl Chatter {
-    /// Notes the blows of an instant that began with positions `q` and velocities `v`. If one belongs to a chatter
-    /// that has come to its end: the rate up to which contacts count as part of it.
-    pub fn ends(
-        &mut self,
-        world: &mut World,
-        t: f64,
-        (q, v): (&[f64], &[f64]),
-        blows: &[Impulse],
-    ) -> Option<f64> {
+    /// Notes the blows of an instant at time `t`. If one belongs to a chatter that has come to its end: the rate up to
+    /// which contacts count as part of it. `size` is the machine's.
+    pub fn ends(&mut self, t: f64, size: f64, blows: &[Impulse]) -> Option<f64> {
         let mut ended = None;
         for blow in blows {
-            let (a, b) = world.place(&blow.candidate, q);
-            let rate = world.touch_at(&blow.candidate, q, (&a, &b)).rate(v);
-            if self.closes(blow.candidate.id, t, rate, world.system.size) {
+            if self.closes(blow.candidate.id, t, blow.rate, size) {
                 // Bodies of unlike inertia throw each other faster than they meet.
-                ended = Some(f64::max(ended.unwrap_or(0.0), 100.0 * rate.abs()));
+                ended = Some(f64::max(ended.unwrap_or(0.0), 100.0 * blow.rate.abs()));
             }
         }
         ended
     }
 
-    /// Notes that a contact closes at time `t` with a closing rate; true when it has become a chatter. `size` is
-    /// the machine's.
+    /// Notes that a contact closes at time `t` with a closing rate; true when it has become a chatter.
     fn closes(&mut self, id: ContactId, t: f64, rate: f64, size: f64) -> bool {
         let Some(entry) = self.last.iter_mut().find(|e| e.0 == id) else {
             self.last.push((id, t, 0));

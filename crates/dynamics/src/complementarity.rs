@@ -11,10 +11,10 @@ use crate::linear::{Cholesky, Small};
 /// A solution; `w` and `lambda` have one entry a row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solution {
-    pub lambda: Vec<f64>,
-    pub w: Vec<f64>,
+    pub lambda: Small<f64, 8>,
+    pub w: Small<f64, 8>,
     /// Independent rows whose λ the solution rests on, in increasing order.
-    pub active: Vec<usize>,
+    pub active: Small<usize, 8>,
     /// False if no x satisfies the conditions to the tolerance, or the bound on steps was met.
     pub solved: bool,
 }
@@ -34,8 +34,18 @@ pub fn solve(a: &[f64], b: &[f64], tolerance: &[f64]) -> Solution {
 /// The same where the last rows have `|λ| ≤ size`.
 pub fn solve_bounded(a: &[f64], b: &[f64], tolerance: &[f64], sizes: &[f64]) -> Solution {
     let n = b.len();
+    let lambda = smallvec::smallvec![0.0; n];
+    let mut s = Solution { lambda, w: Small::from_slice(b), active: Small::new(), solved: true };
+    // Most often there is one contact or none.
+    if let ([a], [b], []) = (a, b, sizes)
+        && *a > 0.0
+        && *b < -tolerance[0]
+    {
+        (s.lambda[0], s.w[0]) = (-b / a, 0.0);
+        s.active.push(0);
+        return s;
+    }
     let problem = Problem { a, b, sizes };
-    let mut s = Solution { lambda: vec![0.0; n], w: b.to_vec(), active: vec![], solved: true };
     for _ in 0..(20 * n + 20) {
         let Some(entering) = problem.worst(&s, tolerance) else { return s };
         match problem.enter(entering, &mut s) {
@@ -129,7 +139,7 @@ impl Problem<'_> {
         s.lambda[entering] += side * step;
         let (low, high) = self.bounds(leaving);
         s.lambda[leaving] = if s.lambda[leaving] - low <= high - s.lambda[leaving] { low } else { high };
-        s.active.retain(|&i| i != leaving);
+        s.active.retain(|&mut i| i != leaving);
         Some(leaving != entering)
     }
 
@@ -181,7 +191,7 @@ impl Problem<'_> {
     fn drop_bounded(&self, s: &mut Solution) {
         let (active, lambda) = (&mut s.active, &mut s.lambda);
         let scale = active.iter().map(|&i| lambda[i].abs()).fold(0.0, f64::max);
-        active.retain(|&i| {
+        active.retain(|&mut i| {
             let (low, high) = self.bounds(i);
             if lambda[i] - low <= 1e-15 * scale {
                 lambda[i] = low;
@@ -226,7 +236,7 @@ mod tests {
     #[test]
     fn one_contact_pushes_only_when_it_must() {
         assert!((solve(&[2.0], &[-3.0], &[1e-12]).lambda[0] - 1.5).abs() < 1e-14);
-        assert_eq!(solve(&[2.0], &[3.0], &[1e-12]).lambda, vec![0.0]);
+        assert_eq!(solve(&[2.0], &[3.0], &[1e-12]).lambda[..], [0.0]);
     }
 
     #[test]
@@ -305,7 +315,7 @@ mod tests {
         let a: Vec<f64> = (0..16).map(|k| dot(&g[k / 4], &g[k % 4])).collect();
         let b: Vec<f64> = g.iter().map(|row| dot(row, &x)).collect();
         let s = solve(&a, &b, &[1e-10; 4]);
-        assert!(s.solved && s.active == [1, 3] && s.lambda[1] > 2000.0, "{s:?}");
+        assert!(s.solved && s.active[..] == [1, 3] && s.lambda[1] > 2000.0, "{s:?}");
     }
 
     #[test]

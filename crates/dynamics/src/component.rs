@@ -6,16 +6,16 @@
 //! Coordinates held by dry friction take part with q̈ = 0 and what holds them, `M q̈ − f − Gᵀ λ`, is watched; driven
 //! ones have their prescribed acceleration.
 
+use crate::constraints::{AtState, Constraints};
 use crate::flight::Bounds;
 use crate::inertia::Inertia;
-use crate::linear::{Small, factorize, solve_factorized};
+use crate::linear::Small;
 use crate::opposed::are_opposed;
 use crate::path::Path;
 use crate::runge_kutta::{Equations, Polynomial, Step};
 use crate::settle::Closed;
-use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, Placed, Row};
-use std::sync::Arc;
+use crate::world::World;
+use mainspring_mechanism::Candidate;
 
 /// Velocities below this fraction of what the greatest speeds make likely are no scale of their own.
 const SLOWEST: f64 = 1e-6;
@@ -38,9 +38,7 @@ pub struct Component {
     pub contacts: Vec<Candidate>,
     /// For each contact one on the other side of what it touches, closed as well: the pair holds both ways.
     pub backs: Vec<Option<Candidate>>,
-    /// Bodies its contacts involve, and for each contact their places in that list.
-    bodies: Vec<usize>,
-    sides: Vec<(usize, usize)>,
+    pub constraints: Constraints,
     step: Step,
 }
 
@@ -72,61 +70,35 @@ impl Component {
             let members = &world.system.coupled[*k].coordinates;
             members.iter().any(|i| coordinates.contains(i) || stuck.contains(i))
         };
-        let blocks = (0..world.system.coupled.len()).filter(holds).collect();
-        let mut bodies = Vec::new();
-        let mut place = |body: usize| match bodies.iter().position(|&b| b == body) {
-            Some(i) => i,
-            None => {
-                bodies.push(body);
-                bodies.len() - 1
-            }
-        };
-        let sides = contacts
-            .iter()
-            .map(|c| {
-                let (a, b) = world.bodies(c);
-                (place(a), place(b))
-            })
-            .collect();
-        Self { coordinates, stuck, blocks, contacts, backs, bodies, sides, step: Step::default() }
+        let blocks: Vec<usize> = (0..world.system.coupled.len()).filter(holds).collect();
+        let tied = blocks.iter().flat_map(|&k| world.system.coupled[k].coordinates.iter().copied());
+        let constraints = Constraints::new(world, &contacts, tied);
+        Self { coordinates, stuck, blocks, contacts, backs, constraints, step: Step::default() }
     }
 
-    /// Evaluates each contact at `q` in turn.
-    fn each_touch(&self, world: &mut World, q: &[f64], mut each: impl FnMut(&Touch)) {
-        let system = world.system;
-        let placed: Small<Placed> = self.bodies.iter().map(|&b| Placed::new(&system.bodies[b], q)).collect();
-        for (contact, &(a, b)) in self.contacts.iter().zip(&self.sides) {
-            let touch = world.touch_at(contact, q, (&placed[a], &placed[b]));
-            each(&touch);
-        }
-    }
-
-    /// Forces of the contacts at time `t` and state `(q, v)`, and the accelerations of all coordinates they touch;
-    /// `each` is told every contact. None if the contacts are not independent here.
+    /// Forces of the contacts at time `t` and state `(q, v)`, kept in `at`, and the accelerations of all coordinates
+    /// they touch. False if the contacts are not independent here.
     pub fn forces(
         &self,
         world: &mut World,
         t: f64,
         (q, v): (&[f64], &[f64]),
         acceleration: &mut [f64],
-        mut each: impl FnMut(&Touch),
-    ) -> Option<Small<f64>> {
-        let (system, freedom) = (world.system, world.free.clone());
-        let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
+        at: &mut AtState,
+    ) -> bool {
+        self.constraints.evaluate(world, (q, v), at);
+        let inertia = self.inertia(world, (q, v));
         self.accelerate(world, &inertia, t, (q, v), acceleration);
-        let (mut rows, mut lambda) = (Small::<Row>::new(), Small::<f64>::new());
-        self.each_touch(world, q, |touch| {
-            rows.push(touch.row());
-            lambda.push(-(rows[rows.len() - 1].dot(acceleration) + touch.bias(v)));
-            each(touch);
-        });
-        let mut matrix = inertia.inverse(&rows);
-        if !factorize(&mut matrix, rows.len()) {
-            return None;
+        if !self.constraints.weigh(&inertia, at) {
+            at.lambda.fill(0.0);
+            return false;
         }
-        solve_factorized(&matrix, &mut lambda);
-        inertia.add_forces(&rows, &lambda, acceleration);
-        Some(lambda)
+        self.constraints.press(at, acceleration);
+        true
+    }
+
+    fn inertia<'m>(&self, world: &'m World, state: (&[f64], &[f64])) -> Inertia<'m> {
+        Inertia::new(world.system, &world.free, self.blocks.iter().copied(), state)
     }
 
     /// Accelerations without contacts.
@@ -149,24 +121,13 @@ impl Component {
     /// forces λ that belong to the state.
     pub fn holding(
         &self,
-        world: &mut World,
+        world: &World,
         i: usize,
         (q, v): (&[f64], &[f64]),
         acceleration: &[f64],
-        lambda: &[f64],
+        at: &AtState,
     ) -> f64 {
-        let (system, freedom) = (world.system, world.free.clone());
-        let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
-        inertia.missing(i, (q, v), acceleration) - self.pressed(world, i, q, lambda)
-    }
-
-    /// `(Gᵀ λ)_i`.
-    pub fn pressed(&self, world: &mut World, i: usize, q: &[f64], lambda: &[f64]) -> f64 {
-        let (mut pressed, mut forces) = (0.0, lambda.iter());
-        self.each_touch(world, q, |touch| {
-            pressed += touch.row().at(i) * forces.next().copied().unwrap_or(0.0)
-        });
-        pressed
+        self.inertia(world, (q, v)).missing(i, (q, v), acceleration) - self.constraints.pressed(at, i)
     }
 
     /// Takes one step of at most `longest` from (t, q, v), trying `h` first and halving until the error fits.
@@ -212,7 +173,8 @@ impl Component {
                 h = next;
                 continue;
             }
-            h *= factor.min(0.5);
+            // Points at which contacts depend on each other are no matter of a little less.
+            h *= factor.min(if equations.singular { 0.5 } else { 0.9 });
         };
         self.step = step;
         result
@@ -243,30 +205,21 @@ impl Component {
 
     /// Moves `q` onto g = 0 and `v` onto G q̇ = 0 along M⁻¹ Gᵀ: the nearest state in the metric of inertia.
     pub fn project(&self, world: &mut World, q: &mut [f64], v: &mut [f64]) {
-        let (system, freedom) = (world.system, Arc::clone(&world.free));
         if self.contacts.is_empty() {
             return;
         }
+        let mut at = self.constraints.state();
         for _ in 0..3 {
-            let (mut rows, mut gaps, mut rates) =
-                (Small::<Row>::new(), Small::<f64>::new(), Small::<f64>::new());
-            self.each_touch(world, q, |touch| {
-                rows.push(touch.row());
-                gaps.push(-touch.state.gap);
-                rates.push(-touch.rate(v));
-            });
-            let inertia = Inertia::new(system, &freedom, self.blocks.iter().copied(), (q, v));
-            let mut matrix = inertia.inverse(&rows);
-            if !factorize(&mut matrix, rows.len()) {
+            self.constraints.evaluate(world, (q, v), &mut at);
+            if !self.constraints.weigh(&self.inertia(world, (q, v)), &mut at) {
                 return;
             }
-            solve_factorized(&matrix, &mut rates);
-            inertia.add_forces(&rows, &rates, v);
-            if gaps.iter().all(|g| g.abs() <= 0.1 * crate::search::CLOSED * system.size) {
+            self.constraints.take_away(&mut at, |line| line.rate, v);
+            let exact = 0.1 * crate::search::CLOSED * world.system.size;
+            if at.contacts.iter().all(|line| line.gap.abs() <= exact) {
                 return;
             }
-            solve_factorized(&matrix, &mut gaps);
-            inertia.add_forces(&rows, &gaps, q);
+            self.constraints.take_away(&mut at, |line| line.gap, q);
         }
     }
 }
@@ -277,6 +230,7 @@ struct ComponentEquations<'c, 'w> {
     q: Small<f64, 8>,
     v: Small<f64, 8>,
     acceleration: Small<f64, 8>,
+    at: AtState,
     singular: bool,
 }
 
@@ -298,9 +252,8 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
         for (&i, q) in self.component.coordinates.iter().zip(dense) {
             self.q[i] = q.at(x);
         }
-        let mut gaps = Small::new();
-        self.component.each_touch(self.world, &self.q, |touch| gaps.push(touch.state.gap));
-        gaps
+        self.component.constraints.evaluate(self.world, (&self.q, &self.v), &mut self.at);
+        self.at.contacts.iter().map(|line| line.gap).collect()
     }
 
     fn follow_drives(&mut self, t: f64) {
@@ -317,6 +270,7 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
             q: q.into(),
             v: v.into(),
             acceleration: smallvec::smallvec![0.0; q.len()],
+            at: component.constraints.state(),
             singular: false,
         }
     }
@@ -330,8 +284,8 @@ impl Equations for ComponentEquations<'_, '_> {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
         let state = (self.q.as_slice(), self.v.as_slice());
-        let forces = self.component.forces(self.world, t, state, &mut self.acceleration, |_| {});
-        self.singular |= forces.is_none();
+        let solved = self.component.forces(self.world, t, state, &mut self.acceleration, &mut self.at);
+        self.singular |= !solved;
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];
             dy[n + k] = self.acceleration[i];

@@ -30,6 +30,12 @@ impl Freedom {
         self.held[i]
     }
 
+    /// 1/I; 0 where the motion is given, and where a block holds the inertia.
+    #[inline]
+    pub fn mobility(&self, i: usize) -> f64 {
+        1.0 / self.own[i]
+    }
+
     /// Does coordinate `i` move freely, with an inertia of its own alone?
     #[inline]
     pub fn is_alone(&self, i: usize) -> bool {
@@ -103,6 +109,22 @@ impl<'m> Inertia<'m> {
     /// With every block.
     pub fn whole(system: &'m System, freedom: &'m Freedom, state: (&[f64], &[f64])) -> Self {
         Self::new(system, freedom, 0..system.coupled.len(), state)
+    }
+
+    pub fn has_blocks(&self) -> bool {
+        !self.blocks.is_empty()
+    }
+
+    /// The blocks' part of `M⁻¹ g` for the row of which `entry` tells the entries, coordinate by coordinate.
+    pub fn respond(&self, entry: impl Fn(usize) -> f64, mut each: impl FnMut(usize, f64)) {
+        for block in &self.blocks {
+            let coordinate = |k: usize| block.group.coordinates[k];
+            let mut response: Small<f64> = block.free.iter().map(|&k| entry(coordinate(k))).collect();
+            if response.iter().any(|g| *g != 0.0) {
+                solve_factorized(&block.factor, &mut response);
+                block.free.iter().zip(response).for_each(|(&k, x)| each(coordinate(k), x));
+            }
+        }
     }
 
     /// `G M⁻¹ Gᵀ` in row order.

@@ -3,12 +3,14 @@
 //! Gelsey 1995, Appendix A (the *global* model), with contacts as projections onto `G q̇ ≥ 0` in place of the
 //! elimination of coordinates.
 
+mod balance;
 mod chained;
 mod chatter;
 mod clearance;
 mod complementarity;
 mod compliant;
 mod component;
+mod constraints;
 mod contact;
 mod descent;
 mod energy;
@@ -16,10 +18,12 @@ mod engine;
 mod events;
 mod flight;
 mod halts;
+mod impact;
 mod inertia;
 mod linear;
 mod march;
 mod minima;
+mod near;
 mod opposed;
 mod pace;
 mod path;
@@ -36,10 +40,12 @@ mod sight;
 mod simulation;
 mod sweep;
 mod tableau;
+mod ties;
 mod watch;
 mod work;
 mod world;
 
+pub use balance::forces_at;
 pub use compliant::{Compliant, compliant_forces_at};
 pub use contact::Contact;
 pub use energy::{Energy, kinetic, potential};
@@ -50,5 +56,5 @@ pub use minima::{Minimum, MinimumFinder};
 pub use path::{Path, Piece, Trajectory};
 pub use ranges::{Ranges, Track};
 pub use run::{Mode, Options, Run, Stats, Status};
-pub use settle::{Closed, forces_at};
+pub use settle::Closed;
 pub use simulation::Simulation;

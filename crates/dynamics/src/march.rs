@@ -227,7 +227,7 @@ impl<'a> March<'a> {
     fn gap_in_sight(&self, world: &mut World, sight: &Sight) -> f64 {
         world.evaluations += 1;
         let pose = Relative::pose(&sight.placed.0.pose, &sight.placed.1.pose);
-        gap_between(self.candidate.kind, self.features.0, self.features.1, &pose)
+        gap_between(self.candidate.kind, self.features, &pose)
     }
 
     fn margin(&self, world: &mut World, sight: &Sight) -> f64 {

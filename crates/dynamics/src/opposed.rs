@@ -8,7 +8,7 @@
 use crate::inertia::Inertia;
 use crate::linear::Cholesky;
 use crate::settle::Closed;
-use crate::world::{Touch, World};
+use crate::world::World;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::{Candidate, Feature, FeatureShape, GapKind, Row};
 
@@ -42,8 +42,8 @@ pub fn are_opposed(world: &World, one: &Candidate, other: &Candidate) -> bool {
 }
 
 /// What two faces of a groove hold between them stays so even at an instant at which neither carries force: one of them
-/// becomes active, if that leaves the active rows independent.
-pub fn hold_between(world: &World, touches: &[&Touch], state: (&[f64], &[f64]), closed: &mut [Closed]) {
+/// becomes active, if that leaves the active rows independent. `rows` are those of the closed contacts.
+pub fn hold_between(world: &World, rows: &[Row], state: (&[f64], &[f64]), closed: &mut [Closed]) {
     let opposed = |i: usize, all: &[Closed]| {
         all.iter().any(|other| are_opposed(world, &all[i].candidate, &other.candidate))
     };
@@ -51,16 +51,15 @@ pub fn hold_between(world: &World, touches: &[&Touch], state: (&[f64], &[f64]), 
         return;
     }
     let inertia = Inertia::whole(world.system, &world.free, state);
-    let row = |c: &Closed| touches.iter().find(|t| t.candidate.id == c.candidate.id).map(|t| t.row());
-    let mut rows: Vec<Row> = closed.iter().filter(|c| c.active).filter_map(row).collect();
+    let mut held: Vec<Row> = closed.iter().zip(rows).filter(|(c, _)| c.active).map(|(_, row)| *row).collect();
     for i in 0..closed.len() {
         if closed[i].active || !opposed(i, closed) {
             continue;
         }
-        rows.extend(row(&closed[i]));
-        closed[i].active = Cholesky::new(inertia.inverse(&rows), rows.len()).is_some();
+        held.push(rows[i]);
+        closed[i].active = Cholesky::new(inertia.inverse(&held), held.len()).is_some();
         if !closed[i].active {
-            rows.pop();
+            held.pop();
         }
     }
 }

@@ -5,26 +5,34 @@
 //! largest rate. At different places, and at concave corners, contacts act together.
 
 use crate::linear::Small;
+use crate::near::{Near, rate_tolerance};
 use crate::search::{BAND, OVERLAP, TOGETHER};
+use crate::settle::Closed;
 use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, ContactId, Feature, FeatureShape, GapKind, Row};
+use mainspring_mechanism::{Candidate, ContactId, Feature, FeatureShape, GapKind};
 
-/// Of touching contacts, those that stand for their place. `kept` were closed before and are preferred among equals.
-pub fn representatives<'p>(
+/// Does a contact that touches stand for its place at velocities `v`? Those `closed` before are preferred among equals.
+pub fn stands_for_its_place(
     world: &mut World,
-    q: &[f64],
-    v: &[f64],
-    near: &[Touch<'p>],
-    kept: &[ContactId],
-    tolerance: &dyn Fn(&Row) -> f64,
-) -> Vec<Touch<'p>> {
-    let mut chosen = Vec::new();
-    for touch in near {
-        if is_eligible(world, touch, q, v) && stands(world, touch, q, v, kept, tolerance) {
-            chosen.push(*touch);
-        }
+    near: &Near,
+    (q, v): (&[f64], &[f64]),
+    closed: &[Closed],
+) -> bool {
+    if !is_eligible(world, &near.touch, q, v) {
+        return false;
     }
-    chosen
+    let others = alternatives(world, &near.touch);
+    others.is_empty() || prevails(world, &near.touch, &others, (near.rate(v), near.still), (q, v), closed)
+}
+
+/// Is a contact about to close really one: on its features, not running off them, and standing for its place?
+pub fn is_standing(world: &mut World, touch: &Touch, q: &[f64], v: &[f64], speeds: &[f64]) -> bool {
+    if !is_eligible(world, touch, q, v) {
+        return false;
+    }
+    let others = alternatives(world, touch);
+    others.is_empty()
+        || prevails(world, touch, &others, (touch.rate(v), rate_tolerance(&touch.row(), speeds)), (q, v), &[])
 }
 
 /// Is the contact point on both features, and not on its way off them?
@@ -52,20 +60,18 @@ fn is_leaving(world: &mut World, touch: &Touch, q: &[f64], v: &[f64]) -> bool {
     later.margin(size) < touch.margin(size) - 1e-13 * size
 }
 
-/// Does this contact stand for its place against its alternatives?
-fn stands(
+/// Does this contact stand for its place against its alternatives? Rates that differ by less than `still` are equal.
+fn prevails(
     world: &mut World,
     touch: &Touch,
-    q: &[f64],
-    v: &[f64],
-    kept: &[ContactId],
-    tolerance: &dyn Fn(&Row) -> f64,
+    others: &[Candidate],
+    (rate, still): (f64, f64),
+    (q, v): (&[f64], &[f64]),
+    closed: &[Closed],
 ) -> bool {
     let size = world.system.size;
-    let rate = touch.rate(v);
-    let still = tolerance(&touch.row());
-    for other in alternatives(world, touch) {
-        let other = world.touch(&other, touch.placed);
+    for other in others {
+        let other = world.touch(other, touch.placed);
         if !is_eligible(world, &other, q, v) || other.state.gap < -OVERLAP * size {
             continue;
         }
@@ -73,8 +79,8 @@ fn stands(
             return false;
         }
         let ahead = other.rate(v) - rate;
-        let preferred = |id: &ContactId| (!kept.contains(id), *id);
-        let tie = preferred(&other.candidate.id) < preferred(&touch.candidate.id);
+        let preferred = |id: ContactId| (!closed.iter().any(|c| c.candidate.id == id), id);
+        let tie = preferred(other.candidate.id) < preferred(touch.candidate.id);
         if ahead > still || (ahead >= -still && tie) {
             return false;
         }
@@ -83,19 +89,19 @@ fn stands(
 }
 
 /// Contacts that are alternatives to this one: none unless it is at an edge's end that is a convex corner.
-fn alternatives(world: &World, touch: &Touch) -> Vec<Candidate> {
+fn alternatives(world: &World, touch: &Touch) -> Small<Candidate> {
     let candidate = &touch.candidate;
-    let GapKind::RoundEdge { swapped } = candidate.kind else { return vec![] };
+    let GapKind::RoundEdge { swapped } = candidate.kind else { return Small::new() };
     if touch.state.edge_margin > BAND * world.system.size {
-        return vec![];
+        return Small::new();
     }
     let bodies = world.bodies(candidate);
     let (first, second) = (candidate.id.first as usize, candidate.id.second as usize);
     let (round, edge, round_body, edge_body) =
         if swapped { (second, first, bodies.1, bodies.0) } else { (first, second, bodies.0, bodies.1) };
     let (rounds, edges) = (&world.system.features[round_body], &world.system.features[edge_body]);
-    let Some(corner) = corner_at(edges, edge, touch.state.near_end) else { return vec![] };
-    let mut pairs: Vec<(usize, usize)> =
+    let Some(corner) = corner_at(edges, edge, touch.state.near_end) else { return Small::new() };
+    let mut pairs: Small<(usize, usize)> =
         edges[corner].neighbours.iter().filter(|&&e| e != edge).map(|&e| (round, e)).collect();
     pairs.push((round, corner));
     if rounds[round].is_corner() {
@@ -124,10 +130,4 @@ fn candidate_of(world: &World, like: &Candidate, ids: (usize, usize)) -> Option<
     let kind = pair.kind(ids, features)?;
     let id = ContactId { interaction, first: ids.0 as u32, second: ids.1 as u32 };
     Some(Candidate { id, kind, distance: 0.0 })
-}
-
-/// Is a contact about to close really one: on its features, not running off them, and standing for its place?
-pub fn is_standing(world: &mut World, touch: &Touch, q: &[f64], v: &[f64], speeds: &[f64]) -> bool {
-    let tolerance = |row: &Row| crate::settle::rate_tolerance(row, speeds);
-    is_eligible(world, touch, q, v) && stands(world, touch, q, v, &[], &tolerance)
 }

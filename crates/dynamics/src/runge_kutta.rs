@@ -1,5 +1,6 @@
 //! One step of the Runge–Kutta method of order 8 with dense output (DOP853, see `tableau`).
 
+use crate::linear::Small;
 use crate::tableau::{A, C, D, DENSE_STAGES, E3, E5, POWERS, STAGES};
 
 /// The right-hand side: derivative of `y` at time `t` into `dy`.
@@ -41,11 +42,9 @@ impl Step {
             self.stage(f, stage, t, y, h);
         }
         self.end.copy_from_slice(&self.scratch);
-        let norm = |weights: &[(usize, f64)]| -> f64 {
-            (0..n)
-                .map(|i| weights.iter().map(|&(s, e)| e * self.k[s * n + i]).sum::<f64>() / scale[i])
-                .map(|e| e * e)
-                .sum()
+        let mut norm = |weights: &[(usize, f64)]| -> f64 {
+            combine(weights, &self.k, &mut self.scratch);
+            self.scratch.iter().zip(scale).map(|(e, scale)| (e / scale) * (e / scale)).sum()
         };
         let (five, three) = (norm(E5), norm(E3));
         if five == 0.0 {
@@ -56,12 +55,7 @@ impl Step {
 
     fn stage(&mut self, f: &mut impl Equations, stage: usize, t: f64, y: &[f64], h: f64) {
         let n = self.n;
-        self.scratch.fill(0.0);
-        for &(s, a) in A[stage] {
-            for (sum, k) in self.scratch.iter_mut().zip(&self.k[s * n..(s + 1) * n]) {
-                *sum += a * k;
-            }
-        }
+        combine(A[stage], &self.k, &mut self.scratch);
         for (sum, start) in self.scratch.iter_mut().zip(y) {
             *sum = start + h * *sum;
         }
@@ -74,21 +68,52 @@ impl Step {
         for stage in STAGES + 1..DENSE_STAGES {
             self.stage(f, stage, t, y, h);
         }
-        (0..self.n).map(|i| self.polynomial(i, y[i], h)).collect()
+        let n = self.n;
+        let mut higher: Small<f64, 32> = smallvec::smallvec![0.0; D.len() * n];
+        for (row, sums) in D.iter().zip(higher.chunks_exact_mut(n.max(1))) {
+            combine(row, &self.k, sums);
+        }
+        (0..n).map(|i| self.polynomial(i, y[i], h, |power| higher[power * n + i])).collect()
     }
 
-    fn polynomial(&self, i: usize, start: f64, h: f64) -> Polynomial {
+    fn polynomial(&self, i: usize, start: f64, h: f64, higher: impl Fn(usize) -> f64) -> Polynomial {
         let k = |s: usize| self.k[s * self.n + i];
         let delta = self.end[i] - start;
         let mut f = [0.0; POWERS];
         f[0] = delta;
         f[1] = h * k(0) - delta;
         f[2] = 2.0 * delta - h * (k(STAGES) + k(0));
-        for (value, row) in f[3..].iter_mut().zip(&D) {
-            *value = h * row.iter().map(|&(s, d)| d * k(s)).sum::<f64>();
+        for (power, value) in f[3..].iter_mut().enumerate() {
+            *value = h * higher(power);
         }
         Polynomial { start, coefficients: f }
     }
+}
+
+/// Sums of stage derivatives (rows of `k`) with weights.
+fn combine(weights: &[(usize, f64)], k: &[f64], sums: &mut [f64]) {
+    match sums.len() {
+        2 => combine_few::<2>(weights, k, sums),
+        4 => combine_few::<4>(weights, k, sums),
+        6 => combine_few::<6>(weights, k, sums),
+        8 => combine_few::<8>(weights, k, sums),
+        n => {
+            sums.fill(0.0);
+            for &(s, weight) in weights {
+                sums.iter_mut().zip(&k[s * n..]).for_each(|(sum, k)| *sum += weight * k);
+            }
+        }
+    }
+}
+
+/// The same where the compiler knows how many there are.
+fn combine_few<const N: usize>(weights: &[(usize, f64)], k: &[f64], sums: &mut [f64]) {
+    let mut few = [0.0; N];
+    let (rows, _) = k.as_chunks::<N>();
+    for &(s, weight) in weights {
+        few.iter_mut().zip(&rows[s]).for_each(|(sum, k)| *sum += weight * k);
+    }
+    sums.copy_from_slice(&few);
 }
 
 /// `y(x) = start + x (F₀ + (1−x) (F₁ + x (F₂ + …)))` for x from 0 to 1 over the step.

@@ -2,12 +2,13 @@
 //! dry friction no longer holds.
 
 use crate::component::Component;
+use crate::constraints::AtState;
 use crate::halts::Halt;
 use crate::linear::Small;
 use crate::root::narrow;
 use crate::search::Stretch;
-use crate::world::{Touch, World};
-use mainspring_mechanism::{Candidate, ContactId};
+use crate::world::World;
+use mainspring_mechanism::{Candidate, ContactId, gap_state};
 
 /// Why a stretch ends before its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,8 +61,14 @@ const SAMPLES: u32 = 3;
 pub fn first_change(world: &mut World, component: &Component, stretch: &Stretch) -> Option<(f64, Change)> {
     let n = stretch.paths.len();
     let zero = || -> Small<f64, 8> { smallvec::smallvec![0.0; n] };
-    let mut probe =
-        Probe { component, stretch, q: zero(), v: zero(), acceleration: zero(), lambda: Small::new() };
+    let mut probe = Probe {
+        component,
+        stretch,
+        q: zero(),
+        v: zero(),
+        acceleration: zero(),
+        at: component.constraints.state(),
+    };
     let mut before = stretch.from;
     for k in 1..=SAMPLES {
         let t = stretch.from + (stretch.to - stretch.from) * f64::from(k) / f64::from(SAMPLES);
@@ -83,8 +90,8 @@ struct Probe<'c, 's, 'p> {
     q: Small<f64, 8>,
     v: Small<f64, 8>,
     acceleration: Small<f64, 8>,
-    /// Contact forces where last measured.
-    lambda: Small<f64>,
+    /// The contacts where last measured.
+    at: AtState,
 }
 
 impl Probe<'_, '_, '_> {
@@ -100,16 +107,18 @@ impl Probe<'_, '_, '_> {
     /// holds: all stays while these are positive.
     fn measure_all(&mut self, world: &mut World, t: f64) -> Small<f64, 8> {
         self.move_to(world, t);
-        let size = world.system.size;
-        let mut measures: Small<f64, 8> = Small::new();
-        let margin = |touch: &Touch| measures.extend([0.0, touch.margin(size) + PAST_END * size]);
         let state = (self.q.as_slice(), self.v.as_slice());
-        let forces = self.component.forces(world, t, state, &mut self.acceleration, margin);
-        self.lambda = forces.unwrap_or_default();
+        self.component.forces(world, t, state, &mut self.acceleration, &mut self.at);
+        let mut measures: Small<f64, 8> = Small::new();
+        for (k, contact) in self.component.contacts.iter().enumerate() {
+            let force = self.at.lambda.get(k).copied().unwrap_or(0.0);
+            measures
+                .extend([force, self.margin_between(world, contact, self.component.constraints.sides(k))]);
+        }
         for (k, back) in self.component.backs.iter().enumerate() {
             // What is held from both sides is held whichever of them carries the force.
-            measures[2 * k] = if back.is_some() { 1.0 } else { self.lambda.get(k).copied().unwrap_or(0.0) };
             if let Some(back) = back {
+                measures[2 * k] = 1.0;
                 measures[2 * k + 1] = measures[2 * k + 1].min(self.margin(world, back));
             }
         }
@@ -122,7 +131,7 @@ impl Probe<'_, '_, '_> {
     /// The force of dry friction on the k-th stuck coordinate, where last measured.
     fn held(&mut self, world: &mut World, k: usize) -> f64 {
         let state = (self.q.as_slice(), self.v.as_slice());
-        self.component.holding(world, self.component.stuck[k], state, &self.acceleration, &self.lambda)
+        self.component.holding(world, self.component.stuck[k], state, &self.acceleration, &self.at)
     }
 
     /// One of them; a margin needs its own contact only.
@@ -133,6 +142,15 @@ impl Probe<'_, '_, '_> {
         self.move_to(world, t);
         let own = self.margin(world, &self.component.contacts[i / 2]);
         self.component.backs[i / 2].map_or(own, |back| own.min(self.margin(world, &back)))
+    }
+
+    /// The same for one of the component's own contacts, whose bodies are placed where last measured.
+    fn margin_between(&self, world: &World, contact: &Candidate, sides: Option<(usize, usize)>) -> f64 {
+        let Some((a, b)) = sides else { return f64::INFINITY };
+        let (features, size) = (world.features(contact), world.system.size);
+        let poses = (&self.at.bodies[a].pose, &self.at.bodies[b].pose);
+        let state = gap_state(contact.kind, features.0, features.1, poses.0, poses.1);
+        state.edge_margin.min(state.cone_margin * size) + PAST_END * size
     }
 
     /// How far a contact still is from running off its feature, where last moved to.

@@ -48,9 +48,9 @@ fn power(
     let mut a: Small<f64, 8> = states.iter().map(|s| s.1).collect();
     let mut torque: Small<f64, 8> = smallvec::smallvec![0.0; q.len()];
     for (component, _) in components {
-        let Some(lambda) = component.forces(world, t, (&q, &v), &mut a, |_| {}) else { continue };
-        for &i in moving {
-            torque[i] -= component.pressed(world, i, &q, &lambda);
+        let mut at = component.constraints.state();
+        if component.forces(world, t, (&q, &v), &mut a, &mut at) {
+            moving.iter().for_each(|&i| torque[i] -= component.constraints.pressed(&at, i));
         }
     }
     let freedom = world.free.clone();

@@ -7,16 +7,18 @@ pub fn join_sharing(
 ) -> Vec<(Vec<usize>, Vec<usize>)> {
     let mut apart: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
     for (mut coordinates, mut members) in sets.into_iter().filter(|s| !s.0.is_empty()) {
-        let (joined, others): (Vec<_>, Vec<_>) =
-            apart.into_iter().partition(|s| s.0.iter().any(|i| coordinates.contains(i)));
-        for set in joined {
-            coordinates.extend(set.0);
-            members.extend(set.1);
-        }
+        let own = coordinates.len();
+        apart.retain_mut(|set| {
+            let apart = !set.0.iter().any(|i| coordinates[..own].contains(i));
+            if !apart {
+                coordinates.append(&mut set.0);
+                members.append(&mut set.1);
+            }
+            apart
+        });
         coordinates.sort_unstable();
         coordinates.dedup();
         members.sort_unstable();
-        apart = others;
         apart.push((coordinates, members));
     }
     apart.sort_by(|a, b| a.0.cmp(&b.0));

@@ -2,6 +2,7 @@
 
 // Contact: features, gaps, where they may close.
 mod boundary;
+mod constraint;
 mod contact_law;
 mod feature;
 mod gap;
@@ -17,6 +18,7 @@ mod system;
 mod tree;
 
 pub use boundary::Boundary;
+pub use constraint::{Constrained, Constraint, Moving};
 pub use feature::{Cone, Feature, FeatureName, FeatureShape, features};
 pub use gap::{GapKind, GapState, gap, gap_state, misses_cone};
 pub use grouping::join_sharing;

@@ -93,22 +93,11 @@ pub struct PointMotion {
 
 impl<'b> Placed<'b> {
     /// Joints beyond `MAX_CHAIN` are not looked at; `System::new` allows none.
+    #[inline]
     pub fn new(body: &'b Body, q: &[f64]) -> Self {
-        let mut placed =
-            Self { pose: Pose::identity(), chain: &body.chain, at: [Vec2::default(); MAX_CHAIN] };
-        for (k, joint) in body.chain.iter().enumerate().take(MAX_CHAIN) {
-            let step = joint.motion.pose(q[joint.coordinate] * joint.ratio);
-            if k == 0 {
-                (placed.at[0], placed.pose) = (joint.motion.vector(), step);
-                continue;
-            }
-            placed.at[k] = match joint.motion {
-                Motion::Turn { center } => placed.pose.apply(center),
-                Motion::Slide { direction } => placed.pose.rotate(direction),
-            };
-            placed.pose = placed.pose.then_after(&step);
-        }
-        placed
+        let mut at = [Vec2::default(); MAX_CHAIN];
+        let pose = place(&body.chain, q, &mut at);
+        Self { pose, chain: &body.chain, at }
     }
 
     /// How many joints both chains begin with: they move both bodies alike, and nothing between them depends on it.
@@ -196,6 +185,23 @@ impl<'b> Placed<'b> {
     }
 }
 
+/// Where the joints of a chain put its body at positions `q`; `at` gets for each joint the centre of a turn or the
+/// direction of a slide, in the machine.
+#[inline]
+pub(crate) fn place(chain: &[Joint], q: &[f64], at: &mut [Vec2; MAX_CHAIN]) -> Pose {
+    let Some((first, others)) = chain.split_first() else { return Pose::identity() };
+    at[0] = first.motion.vector();
+    let mut pose = first.motion.pose(q[first.coordinate] * first.ratio);
+    for (joint, at) in others.iter().zip(&mut at[1..]) {
+        *at = match joint.motion {
+            Motion::Turn { center } => pose.apply(center),
+            Motion::Slide { direction } => pose.rotate(direction),
+        };
+        pose = pose.then_after(&joint.motion.pose(q[joint.coordinate] * joint.ratio));
+    }
+    pose
+}
+
 /// A velocity field `linear + turning · p^⊥`, with its rate of change at fixed places.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Field {
@@ -206,6 +212,31 @@ pub struct Field {
 }
 
 impl Field {
+    /// Of a body on a chain with joints `at` their places, at velocities `v` and without accelerations of the coordinates.
+    #[inline]
+    pub(crate) fn drift(chain: &[Joint], at: &[Vec2], v: &[f64]) -> Self {
+        let mut field = Self::default();
+        for (j, &at) in chain.iter().zip(at) {
+            let rate = j.ratio * v[j.coordinate];
+            if matches!(j.motion, Motion::Turn { .. }) {
+                field.linear_rate = field.linear_rate - field.velocity_at(at).perp() * rate;
+                field.turn(at, rate);
+            } else {
+                field.linear_rate = field.linear_rate + at.perp() * (rate * field.turning);
+                field.linear = field.linear + at * rate;
+            }
+        }
+        field
+    }
+
+    /// Velocity and bias acceleration of the body's point now at `p`, for a field without accelerations of the
+    /// coordinates.
+    #[inline]
+    pub fn motion(&self, p: Vec2) -> PointMotion {
+        let velocity = self.velocity_at(p);
+        PointMotion { velocity, bias: self.linear_rate + velocity.perp() * self.turning }
+    }
+
     fn velocity_at(&self, p: Vec2) -> Vec2 {
         self.linear + p.perp() * self.turning
     }

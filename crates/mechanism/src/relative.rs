@@ -104,6 +104,24 @@ pub struct Approach {
     pub centers: f64,
 }
 
+/// The gap of `gap_state` for the pose second_from_first. The kind must be `GapKind::of(a, b)`.
+#[inline]
+pub fn gap_between(kind: GapKind, (a, b): (&Feature, &Feature), pose: &Pose) -> f64 {
+    let (r, s) = (a.shape.radius(), b.shape.radius());
+    let to_edge = |center: Vec2, edge: &Feature, radius: f64| match edge.shape {
+        FeatureShape::Edge { from, normal, .. } => normal.dot(center - from) - radius,
+        _ => unreachable!("kind fits shapes"),
+    };
+    match kind {
+        GapKind::RoundEdge { swapped: false } => to_edge(pose.apply(a.shape.anchor()), b, r),
+        GapKind::RoundEdge { swapped: true } => to_edge(pose.apply_back(b.shape.anchor()), a, s),
+        GapKind::RoundRound => (pose.apply(a.shape.anchor()) - b.shape.anchor()).norm() - (r + s),
+        GapKind::RoundHollow { .. } => {
+            (r - s).abs() - (pose.apply(a.shape.anchor()) - b.shape.anchor()).norm()
+        }
+    }
+}
+
 /// Gap and rates of two features in a relative motion. The kind must be `GapKind::of(a, b)`.
 #[inline]
 pub fn approach(kind: GapKind, a: &Feature, b: &Feature, relative: &Relative) -> Approach {
@@ -116,27 +134,6 @@ pub fn approach(kind: GapKind, a: &Feature, b: &Feature, relative: &Relative) ->
         GapKind::RoundEdge { swapped: true } => to_edge(relative.back(b.shape.anchor()), &b.shape, &a.shape),
         GapKind::RoundRound => to_center(&a.shape, &b.shape, relative, 1.0),
         GapKind::RoundHollow { .. } => to_center(&a.shape, &b.shape, relative, -1.0),
-    }
-}
-
-/// The gap alone, the first body seen from the second at `second_from_first`: that of `approach`.
-#[inline]
-pub fn gap_between(kind: GapKind, a: &Feature, b: &Feature, second_from_first: &Pose) -> f64 {
-    let (ra, rb) = (a.shape.radius(), b.shape.radius());
-    let edge_gap = |c: Vec2, radius: f64, edge: &FeatureShape| {
-        let FeatureShape::Edge { from, normal, .. } = *edge else { unreachable!("kind fits shapes") };
-        normal.dot(c - from) - radius
-    };
-    let centers = || (second_from_first.apply(a.shape.anchor()) - b.shape.anchor()).norm();
-    match kind {
-        GapKind::RoundEdge { swapped: false } => {
-            edge_gap(second_from_first.apply(a.shape.anchor()), ra, &b.shape)
-        }
-        GapKind::RoundEdge { swapped: true } => {
-            edge_gap(second_from_first.apply_back(b.shape.anchor()), rb, &a.shape)
-        }
-        GapKind::RoundRound => centers() - (ra + rb),
-        GapKind::RoundHollow { .. } => (ra - rb).abs() - centers(),
     }
 }
 

@@ -3,7 +3,8 @@
 
 use mainspring_geometry::Scalar;
 use mainspring_mechanism::{
-    Body, Feature, FeatureShape, GapKind, Joint, Motion, Placed, Relative, approach, features, gap, gap_state,
+    Body, Constraint, Feature, FeatureShape, GapKind, Joint, Motion, Moving, Placed, Relative, approach,
+    features, gap, gap_between, gap_state,
 };
 use num_dual::{Dual2_64, Dual64};
 use shapes::{outline, p};
@@ -79,6 +80,8 @@ fn check(
     let path = gap(bodies, f, &path).unwrap();
     let seen = approach(kind, f.0, f.1, &Relative::new(&placed.0, &placed.1, v, &dv));
     assert!((seen.gap - value).abs() < 1e-13, "{what}: gap {} against {value}", seen.gap);
+    let between = gap_between(kind, f, &Relative::pose(&placed.0.pose, &placed.1.pose));
+    assert!((between - value).abs() < 1e-13, "{what}: gap {between} against {value}");
     assert!(
         (seen.rate - path.v1).abs() < 1e-12 * (1.0 + rate.abs()),
         "{what}: {} against {}",
@@ -98,6 +101,47 @@ fn check(
         let ours: f64 = row.entries().filter(|(k, _)| *k == i).map(|(_, g)| g).sum();
         assert!((ours - exact).abs() < 1e-12, "{what}: ∂g/∂q{i} {ours} against {exact}");
     }
+}
+
+/// What is looked up once says the same as what is evaluated anew.
+#[test]
+fn constraints_agree_with_gaps() {
+    let (bodies, q, v) = (bodies(), [0.37, -0.81, 0.45, 1.2], [0.9, -1.3, 0.6, 0.4]);
+    let mut met = 0;
+    for (i, a) in bodies.iter().enumerate() {
+        for b in bodies.iter().enumerate().filter(|(j, _)| *j != i).map(|b| b.1) {
+            let (fa, fb) = (features(&a.outline, 5.0), features(&b.outline, 5.0));
+            for (x, y) in fa.iter().flat_map(|x| fb.iter().map(move |y| (x, y))) {
+                let Some(kind) = GapKind::of(x, y) else { continue };
+                compare((a, b), (x, y), kind, &q, &v);
+                met += 1;
+            }
+        }
+    }
+    assert!(met > 300, "{met}");
+}
+
+fn compare(bodies: (&Body, &Body), f: (&Feature, &Feature), kind: GapKind, q: &[f64; 4], v: &[f64; 4]) {
+    let placed = (Placed::new(bodies.0, q), Placed::new(bodies.1, q));
+    let state = gap_state(kind, f.0, f.1, &placed.0.pose, &placed.1.pose);
+    let constraint = Constraint::new(kind, f, bodies);
+    let first = constraint.shared;
+    assert_eq!(first, placed.0.shared(&placed.1));
+    let (mut a, mut b) = (Moving::default(), Moving::default());
+    a.go_to(&bodies.0.chain, q, v);
+    b.go_to(&bodies.1.chain, q, v);
+    let sides = (a.carried_by(&bodies.0.chain, first, v), b.carried_by(&bodies.1.chain, first, v));
+    let seen = constraint.at(&sides.0, &sides.1);
+    let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-12 * (1.0 + x.abs()), "{kind:?}: {x} against {y}");
+    near(seen.gap, state.gap);
+    near(seen.rate, state.rate(&placed.0, &placed.1, v));
+    near(seen.bias, state.bias(&placed.0, &placed.1, v));
+    let mut row = [0.0; 4];
+    let (a, b) = (&bodies.0.chain, &bodies.1.chain);
+    sides.0.slopes(a, first, seen.normal, seen.points.0, |k, slope| row[a[k].coordinate] += slope);
+    sides.1.slopes(b, first, seen.normal, seen.points.1, |k, slope| row[b[k].coordinate] -= slope);
+    let expected = state.row(&placed.0, &placed.1);
+    (0..4).for_each(|i| near(row[i], expected.at(i)));
 }
 
 #[test]

@@ -31,7 +31,8 @@ impl Simulation<'_> {
     /// Would the accelerations of a component, over the times of its springs, give it no more energy than `level`?
     fn is_quiet(&mut self, component: &Component, level: f64) -> bool {
         let mut a = vec![0.0; self.q.len()];
-        if component.forces(&mut self.world, self.record.t, (&self.q, &self.v), &mut a, |_| {}).is_none() {
+        let mut at = component.constraints.state();
+        if !component.forces(&mut self.world, self.record.t, (&self.q, &self.v), &mut a, &mut at) {
             return false;
         }
         let times = component.coordinates.iter().map(|&i| self.natural_times[i]);

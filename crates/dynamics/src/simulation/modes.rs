@@ -6,7 +6,8 @@ use crate::events::entries;
 use crate::flight::{Flight, State};
 use crate::path::Path;
 use crate::run::Mode;
-use crate::settle::{Closed, Group, Instant, Settled, Tie, groups, settle};
+use crate::settle::{Closed, Instant, Settled, settle};
+use crate::ties::{Group, Tie, groups};
 use crate::watch::Change;
 use mainspring_mechanism::Row;
 
@@ -27,8 +28,7 @@ impl Simulation<'_> {
         };
         let sliding = self.world.sliding.clone();
         let mut settled = settle(&mut self.world, &instant, &mut v);
-        instant.chattering =
-            self.chatter.ends(&mut self.world, self.record.t, (&self.q, &self.v), &settled.impulses);
+        instant.chattering = self.chatter.ends(self.record.t, self.world.system.size, &settled.impulses);
         if instant.chattering.is_some() {
             let blow = settled;
             settled = settle(&mut self.world, &instant, &mut v);
@@ -83,10 +83,8 @@ impl Simulation<'_> {
 
     /// Rest, flight or component for every coordinate that is not driven.
     fn set_modes(&mut self, (before, sliding): (&[f64], &[f64]), settled: &Settled) {
-        let active: Vec<&Closed> = settled.closed.iter().filter(|c| c.active).collect();
-        let placed = self.world.place_all(&self.q);
-        let row = |c: &&Closed| self.world.touch_among(&c.candidate, &self.q, &placed).row();
-        let rows: Vec<Row> = active.iter().map(row).collect();
+        let active = settled.closed.iter().zip(&settled.rows).filter(|(c, _)| c.active);
+        let (active, rows): (Vec<&Closed>, Vec<Row>) = active.map(|(c, row)| (c, *row)).unzip();
         let mut in_group = vec![false; self.q.len()];
         self.components.clear();
         for group in groups(self.ties(&rows)) {
