@@ -150,3 +150,12 @@ def test_bad_requests_are_one_clear_line(cli, tmp_path, arguments):
     assert "error: " in done.stderr
     assert "--help)" in done.stderr or "; expected " in done.stderr, done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_coordinates_go_by_place_too(cli):
+    by_name = _json(cli, RATCHET, "wheel", "pawl", "--at", "wheel=3deg,pawl=5deg", "--slice", "pawl=5deg")
+    by_place = _json(cli, RATCHET, "wheel", "pawl", "--at", "a=3deg,b=5deg", "--slice", "b=5deg")
+    assert by_place == by_name
+    twice = cli("cspace", RATCHET, "wheel", "pawl", "--at", "a=3deg,wheel=5deg")
+    assert (twice.returncode, twice.stdout) == (2, "")
+    assert "wheel is given twice" in twice.stderr

@@ -304,6 +304,21 @@ def test_held_joints_move_the_map():
     np.testing.assert_array_equal(space.is_free(at), flipped.is_free(at))
 
 
+def test_coordinates_go_by_place_unless_parts_bear_the_names(ratchet):
+    assert ratchet.slice(a=0.1) == ratchet.slice(wheel=0.1)
+    assert ratchet.slice(b=0.1) == ratchet.slice(pawl=0.1)
+    assert ratchet.walk((0, 0), a=0.3) == ratchet.walk((0, 0), wheel=0.3)
+    bars = ms.Builder("bars")
+    for name, x in (("b", -1.6), ("a", 1.6)):
+        edges = [ms.Line((x + 1.5, -0.2)), ms.Line((x + 1.5, 0.2)), ms.Line((x - 1.5, 0.2)), ms.Close()]
+        outline = ms.Path((x - 1.5, -0.2), edges)
+        bars.part(name, inertia=1, motion=ms.Turns((x + 0.3, 0)), outer=[outline])
+    space = ms.configuration_space(bars.build().compile(), "b", "a")
+    assert space.slice(b=0.5) == space.slice({"B": 0.5})
+    assert space.slice(a=0.5) == space.slice({"A": 0.5})
+    assert space.slice(a=0.5) != space.slice(b=0.5)
+
+
 def test_questions_out_of_range_say_so(ratchet):
     for ask in (
         lambda: ratchet.slice(),

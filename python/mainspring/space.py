@@ -118,6 +118,7 @@ class ConfigurationSpace(Result):
     def slice(self, at: Mapping[str, float] | None = None, /, **value: float) -> tuple[Interval, ...]:
         """Return the free intervals of one coordinate with the other fixed, as in `space.slice(lever=0.1)`.
 
+        The coordinates also go by their places `a` and `b`, unless parts bear these names.
         Intervals lie within one period of the stored domain; `high` may reach over its end.
         """
         axis, x = self._one({**(at or {}), **value})
@@ -142,7 +143,7 @@ class ConfigurationSpace(Result):
         """Push one coordinate and see where that takes the other, as in `space.walk((0, 0), wheel=6.28)`.
 
         The other coordinate stays until it is touched, then yields along the contact curves, until the goal
-        is reached or it jams. None from a blocked start.
+        is reached or it jams. None from a blocked start. Coordinates go by part or by place, as in `slice`.
         """
         axis, x = self._one({**(goal or {}), **value})
         found = self._inner.walk(_point(start), axis, x)
@@ -187,7 +188,7 @@ class ConfigurationSpace(Result):
 
     def _one(self, values: Mapping[str, float]) -> tuple[int, float]:
         """Return the coordinate named, and its value."""
-        names = {name.lower(): k for k, name in enumerate(self.coordinates)}
+        names = {"a": 0, "b": 1, **{name.lower(): k for k, name in enumerate(self.coordinates)}}
         if len(values) == 1:
             (name, value) = next(iter(values.items()))
             if name.lower() in names and math.isfinite(value):

@@ -77,7 +77,7 @@ def _windows(texts: Iterable[str], motions: dict[str, str]) -> dict[str, tuple[f
 
 
 def _point(text: str, own: dict[str, str]) -> tuple[float, float]:
-    found = values.coordinates(text.split(","), "--at", own)
+    found = values.coordinates(text.split(","), "--at", own, _by_place(own))
     if len(found) != 2:
         missing = next(name for name in own if name not in found)
         raise Usage(f"--at {shortened(text)}: no value of {missing}; expected both coordinates")
@@ -86,7 +86,12 @@ def _point(text: str, own: dict[str, str]) -> tuple[float, float]:
 
 
 def _slice(text: str, own: dict[str, str]) -> tuple[str, float]:
-    return next(iter(values.coordinates([text], "--slice", own).items()))
+    return next(iter(values.coordinates([text], "--slice", own, _by_place(own)).items()))
+
+
+def _by_place(own: dict[str, str]) -> dict[str, str]:
+    """Return the names `a` and `b` of the two coordinates."""
+    return dict(zip("ab", own, strict=True))
 
 
 def _write(options: Namespace, mechanism: "ms.Mechanism", space: ConfigurationSpace) -> list[str]:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from mainspring.cli.faults import Usage
 
@@ -80,7 +80,9 @@ def settings(texts: Iterable[str]) -> dict[str, float]:
     return found
 
 
-def coordinates(texts: Iterable[str], option: str, motions: dict[str, str]) -> dict[str, float]:
+def coordinates(
+    texts: Iterable[str], option: str, motions: dict[str, str], also: Mapping[str, str] | None = None
+) -> dict[str, float]:
     """Return joint positions or velocities by part, in radians or the file's length.
 
     Parameters
@@ -91,9 +93,11 @@ def coordinates(texts: Iterable[str], option: str, motions: dict[str, str]) -> d
         `--position` or `--velocity`.
     motions
         By part, `turn` or `slide`.
+    also
+        Further names, in lower case, each with its part; a part's own name goes first.
     """
     found: dict[str, float] = {}
-    names = {name.lower(): name for name in motions}
+    names = {**(also or {}), **{name.lower(): name for name in motions}}
     for text in texts:
         part, value = split(text, option)
         if part.lower() not in names:
