@@ -5,6 +5,7 @@ VENV := .venv
 PYTHON ?= python3
 BENCH ?= # options of benchmarks/run.py, as in BENCH="--contact rigid"
 PY := $(VENV)/bin/python
+MODELS := $(wildcard examples/*/*.padl) $(filter-out %/expected.toml,$(wildcard examples/*/*.toml))
 export PYO3_PYTHON := $(CURDIR)/$(VENV)/bin/python
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
@@ -49,7 +50,8 @@ benchmarks/$(VENV)/ready: benchmarks/requirements.txt
 
 bench: build benchmarks/$(VENV)/ready ## measure time, error and memory on one thread beside MuJoCo and pymunk; takes minutes
 	benchmarks/$(VENV)/bin/python benchmarks/run.py $(BENCH)
-	cargo run --release --quiet -p mainspring --example sources examples/*/*.padl
+	cargo run --release --quiet -p mainspring --example sources $(MODELS)
+	cargo run --release --quiet -p mainspring --example maps $(MODELS)
 
 docs: build ## check the documentation: links, keys, pages without a way to them
 	$(PY) scripts/check_docs.py

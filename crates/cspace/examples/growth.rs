@@ -3,8 +3,8 @@
 //! ```text
 //! cargo run --release -p mainspring-cspace --example growth [GREATEST]
 //! ```
-//! Two star-shaped parts of n lines and arcs each, unlike at every corner (nothing repeats), and two toothed wheels,
-//! with and without use of their period. One thread.
+//! Two parts of n lines and arcs each, lobed or star-shaped, unlike at every corner (nothing repeats), and two toothed
+//! wheels, with and without use of their period. One thread.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -21,9 +21,9 @@ fn worked() -> f64 {
     nanoseconds.unwrap_or(f64::NAN) * 1e-9
 }
 
-fn stars(n: usize) -> System {
+/// Stars whose corners lie at random within `depth` of a circle; all round they meet in about its middle.
+fn stars(n: usize, depth: f64) -> System {
     let mut random = Random(n as u64);
-    let depth = (8.0 / n as f64).min(0.35);
     let a = star(&mut random, (0.02, 0.01), 1.0 - depth, 1.0 + depth, n);
     let b = star(&mut random, (1.98, 0.02), 1.0 - depth, 1.0 + depth, n);
     let bodies = vec![
@@ -142,7 +142,11 @@ fn main() {
         row("lobes", n, &lobes(n), &whole);
     }
     for n in sizes.into_iter().filter(|n| *n <= greatest) {
-        row("stars", n, &stars(n), &whole);
+        row("rough stars", n, &stars(n, 0.3), &whole);
+    }
+    // As rough as their sides are long: every tooth scrapes past every other.
+    for n in sizes.into_iter().filter(|n| *n <= greatest) {
+        row("scraping stars", n, &stars(n, (8.0 / n as f64).min(0.35)), &whole);
     }
     for n in [8, 16, 64, 250].into_iter().filter(|n| 4 * n <= greatest) {
         row("wheels", 4 * n, &wheels(n), &SpaceOptions::default());

@@ -3,7 +3,7 @@
 use crate::moving::Moving;
 use crate::pairs::Part;
 use crate::reduce::Reduced;
-use crate::region::Section;
+use crate::section::Section;
 use crate::shape::Shape;
 use crate::span::Span;
 use mainspring_geometry::{CurveId, Vec2};
@@ -81,8 +81,12 @@ impl<'a> Contact<'a> {
             usable[id].then(|| {
                 let center = moving.local.apply(f.center);
                 let lever = moving.lever(center, f.radius);
-                let neighbours = f.neighbours.clone();
-                Part { id, neighbours, shape: Shape::new(f, &moving.local), disc: (center, f.radius), lever }
+                let (shape, neighbours) = (Shape::new(f, &moving.local), f.neighbours.clone());
+                let center_lever = match shape {
+                    Shape::Arc { center, .. } => moving.lever(center, 0.0),
+                    Shape::Edge { .. } => lever,
+                };
+                Part { id, shape, neighbours, disc: (center, f.radius), lever, center_lever }
             })
         };
         self.features(k).iter().enumerate().filter_map(of).collect()

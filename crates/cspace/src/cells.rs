@@ -1,18 +1,18 @@
 //! The search for curves that matter: boxes of configurations, halved until few feature pairs can touch in each.
 //!
-//! A box in which no pair can touch is free or blocked throughout; one that is surely blocked (`witness`) bounds no free
+//! A box in which no pair can touch is free or blocked throughout; one that is surely blocked (`proofs`) bounds no free
 //! space. Both are left at once, so the cost follows the free boundary and not the number of all curves. In a small box
 //! the curves' elements are cut against each other. Free space ends only at contacts, and no end of a free stretch lies
 //! in a surely blocked box: every such end is found.
 
+use crate::around::Around;
 use crate::cross::Cuts;
 use crate::error::SpaceError;
 use crate::pairs::{Catalogue, Cell};
-use crate::witness::Witnesses;
-use mainspring_mechanism::Pose;
+use crate::proofs::Proofs;
 
 /// Feature pairs at which a box is no longer halved.
-const FEW: usize = 20;
+const FEW: usize = 30;
 /// A box is not halved when its motion is below this part of the size.
 const SMALL: f64 = 1e-3;
 
@@ -37,7 +37,7 @@ type Front = Vec<(u32, u32)>;
 
 pub(crate) fn search(
     catalogue: &mut Catalogue,
-    witnesses: &Witnesses,
+    proofs: &mut Proofs,
     cuts: &mut Cuts,
     budget: usize,
 ) -> Result<Work, SpaceError> {
@@ -57,11 +57,16 @@ pub(crate) fn search(
         }
         let poses = [0, 1].map(|k| frame.moving[k].place(cell.center[k]));
         let motion = [levers[0] * cell.half[0], levers[1] * cell.half[1]];
-        let (front, fine) = refine(catalogue, front, &poses, &cell, motion[0] + motion[1]);
+        if proofs.cross(&poses, cell.half) {
+            work.blocked += 1;
+            continue;
+        }
+        let around = Around::new(&frame.moving, &poses, &cell, frame.size);
+        let (front, fine) = refine(catalogue, front, &around, motion[0] + motion[1]);
         if front.is_empty() {
             continue;
         }
-        if witnesses.blocked(&frame.moving, &poses, cell.half) {
+        if proofs.overlap(&poses, cell.half, front.len()) {
             work.blocked += 1;
             continue;
         }
@@ -85,37 +90,36 @@ pub(crate) fn search(
 
 /// Drops node pairs out of reach and opens those larger than the box's motion; all, when few are left. Says whether
 /// all are single features.
-fn refine(catalogue: &Catalogue, front: Front, poses: &[Pose; 2], cell: &Cell, motion: f64) -> (Front, bool) {
+fn refine(catalogue: &Catalogue, front: Front, around: &Around, motion: f64) -> (Front, bool) {
     let [ta, tb] = &catalogue.trees;
-    let mut kept: Front = Vec::new();
+    let (mut kept, mut coarse): (Front, Front) = (Vec::new(), Vec::new());
     let mut open = front;
     for all in [false, true] {
         while let Some((i, j)) = open.pop() {
             let (m, n) = (&ta.nodes[i as usize], &tb.nodes[j as usize]);
-            if !catalogue.near(i, j, poses, cell.half) {
+            if !around.near(m, n) {
                 continue;
             }
             if m.leaf && n.leaf {
-                if catalogue.may_touch(m.link, n.link, poses, cell.half) {
+                let [a, b] = [(0, m.link), (1, n.link)].map(|(k, i)| &catalogue.parts[k][i as usize]);
+                if around.may_touch(a, b) {
                     kept.push((i, j));
                 }
-            } else if all || m.radius + n.radius > motion {
-                let first = !m.leaf && (n.leaf || m.radius >= n.radius);
-                if first {
-                    open.extend(ta.children(i).map(|k| (k, j)));
-                } else {
-                    open.extend(tb.children(j).map(|k| (i, k)));
-                }
+            } else if !all && m.radius + n.radius <= motion {
+                coarse.push((i, j));
+            } else if !m.leaf && (n.leaf || m.radius >= n.radius) {
+                open.extend(ta.children(i).map(|k| (k, j)));
             } else {
-                kept.push((i, j));
+                open.extend(tb.children(j).map(|k| (i, k)));
             }
         }
-        if all || kept.len() > 4 * FEW {
+        if kept.len() + coarse.len() > 4 * FEW {
             break;
         }
-        open = std::mem::take(&mut kept);
+        std::mem::swap(&mut open, &mut coarse);
     }
+    let fine = coarse.is_empty();
+    kept.append(&mut coarse);
     kept.sort_unstable();
-    let fine = kept.iter().all(|&(i, j)| ta.nodes[i as usize].leaf && tb.nodes[j as usize].leaf);
     (kept, fine)
 }

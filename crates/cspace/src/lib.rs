@@ -1,9 +1,11 @@
 //! Configuration spaces of planar pairs: where two bodies are free, where they overlap, and the curves of contact.
 
+mod around;
 mod bodies;
 mod cells;
 mod component;
 mod cross;
+mod crossing;
 mod curve;
 mod cycles;
 mod domain;
@@ -20,8 +22,10 @@ mod nearest;
 mod options;
 mod pairs;
 mod pieces;
+mod proofs;
 mod reduce;
 mod region;
+mod section;
 mod shape;
 mod slabs;
 mod slice;

@@ -2,10 +2,10 @@
 
 use crate::element::{Element, Frame, Scratch, elements};
 use crate::equation::Equation;
-use crate::shape::{Shape, unrotate};
+use crate::shape::Shape;
 use crate::tree::Discs;
 use mainspring_geometry::Vec2;
-use mainspring_mechanism::{GapKind, Pose};
+use mainspring_mechanism::GapKind;
 use std::collections::HashMap;
 
 /// A feature of one of the two bodies.
@@ -20,6 +20,8 @@ pub(crate) struct Part {
     pub disc: (Vec2, f64),
     /// Greatest speed of its points per unit of the scaled position.
     pub lever: f64,
+    /// The same for an arc's centre (of no use for an edge).
+    pub center_lever: f64,
 }
 
 /// A feature pair with its elements.
@@ -93,88 +95,5 @@ impl<'a> Catalogue<'a> {
         });
         self.known.insert((i, j), made);
         made
-    }
-
-    /// May two tree nodes hold features that touch within the cell?
-    pub fn near(&self, i: u32, j: u32, poses: &[Pose; 2], half: [f64; 2]) -> bool {
-        let (m, n) = (&self.trees[0].nodes[i as usize], &self.trees[1].nodes[j as usize]);
-        let [m1, m2] = &self.frame.moving;
-        let motion = half[0] * m1.lever(m.center, m.radius) + half[1] * m2.lever(n.center, n.radius);
-        (poses[0].apply(m.center) - poses[1].apply(n.center)).norm() <= m.radius + n.radius + motion
-    }
-
-    /// May two features touch within the cell? Sharper than `near`: signed distance and normals.
-    pub fn may_touch(&self, i: u32, j: u32, poses: &[Pose; 2], half: [f64; 2]) -> bool {
-        let (a, b) = (&self.parts[0][i as usize], &self.parts[1][j as usize]);
-        match (&a.shape, &b.shape) {
-            (Shape::Arc { .. }, Shape::Arc { .. }) => self.arcs_may_touch(a, b, poses, half),
-            (Shape::Arc { .. }, Shape::Edge { .. }) => {
-                self.edge_may_touch((a, &poses[0], half[0], 0), (b, &poses[1], half[1], 1))
-            }
-            (Shape::Edge { .. }, Shape::Arc { .. }) => {
-                self.edge_may_touch((b, &poses[1], half[1], 1), (a, &poses[0], half[0], 0))
-            }
-            _ => false,
-        }
-    }
-
-    fn turning(&self, axis: usize, half: f64) -> f64 {
-        if self.frame.moving[axis].turns() { half } else { 0.0 }
-    }
-
-    fn edge_may_touch(&self, arc: (&Part, &Pose, f64, usize), edge: (&Part, &Pose, f64, usize)) -> bool {
-        let (
-            Shape::Arc { center, radius, directions, hollow },
-            Shape::Edge { from, tangent, normal, length },
-        ) = (&arc.0.shape, &edge.0.shape)
-        else {
-            return false;
-        };
-        if *hollow {
-            return false;
-        }
-        let own = self.frame.moving[arc.3].lever(*center, 0.0) * arc.2;
-        let radius_motion = if self.frame.moving[edge.3].turns() { edge.2 * radius } else { 0.0 };
-        let motion = own + edge.0.lever * edge.2 + radius_motion + 1e-9 * self.frame.size;
-        let offset = unrotate(edge.1, arc.1.apply(*center) - edge.1.shift) - *from;
-        let (along, gap) = (tangent.dot(offset), normal.dot(offset) - radius);
-        if gap.abs() > motion || along < -motion || along > length + motion {
-            return false;
-        }
-        let turn = self.turning(arc.3, arc.2) + self.turning(edge.3, edge.2) + 1e-9;
-        turn >= 0.5 || directions.margin(unrotate(arc.1, -edge.1.rotate(*normal))) >= -turn
-    }
-
-    fn arcs_may_touch(&self, a: &Part, b: &Part, poses: &[Pose; 2], half: [f64; 2]) -> bool {
-        let (
-            Shape::Arc { center: p, radius: r, directions: da, hollow: ha },
-            Shape::Arc { center: q, radius: s, directions: db, hollow: hb },
-        ) = (&a.shape, &b.shape)
-        else {
-            return false;
-        };
-        let [m1, m2] = &self.frame.moving;
-        let inside = *ha || *hb;
-        let rho = if inside { (r - s).abs() } else { r + s };
-        let motion = m1.lever(*p, 0.0) * half[0] + m2.lever(*q, 0.0) * half[1] + 1e-9 * self.frame.size;
-        let d = poses[0].apply(*p) - poses[1].apply(*q);
-        let length = d.norm();
-        if (length - rho).abs() > motion {
-            return false;
-        }
-        // The direction of centres turns by at most asin(motion/ρ), and the bodies turn.
-        let turn = 1.6 * motion / rho.max(f64::MIN_POSITIVE) + 1e-9;
-        if turn >= 0.4 || length == 0.0 {
-            return true;
-        }
-        let d = d * (1.0 / length);
-        let (out_a, out_b) = match (*ha, *hb) {
-            (false, false) => (-d, d),
-            (false, true) => (d, d),
-            _ => (-d, -d),
-        };
-        let (ta, tb) = (turn + self.turning(0, half[0]), turn + self.turning(1, half[1]));
-        (ta >= 0.5 || da.margin(unrotate(&poses[0], out_a)) >= -ta)
-            && (tb >= 0.5 || db.margin(unrotate(&poses[1], out_b)) >= -tb)
     }
 }

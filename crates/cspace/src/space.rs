@@ -12,11 +12,12 @@ use crate::moving::{Kind, Moving};
 use crate::options::SpaceOptions;
 use crate::pairs::{Catalogue, Part};
 use crate::pieces::{Judge, pieces, weld};
+use crate::proofs::Proofs;
 use crate::reduce::{Reduced, reduce};
 use crate::region::Regions;
 use crate::slabs::{Atlas, Slabs, build};
 use crate::symmetry;
-use crate::witness::Witnesses;
+use crate::witness::{EFFORT, Witnesses};
 use mainspring_mechanism::System;
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
@@ -153,7 +154,8 @@ fn check(
 const ANYWHERE: usize = 24;
 
 /// A configuration in contact where none should be: the bodies touch for ever, at a point on an axis or along a slide.
-fn touching(frame: &Frame, regions: &Regions) -> Option<[f64; 2]> {
+fn touching(frame: &Frame, regions: &Regions, witnesses: &Witnesses) -> Option<[f64; 2]> {
+    let little = 1e-9 * frame.size;
     // Multiples of the plastic number's inverse powers, which fall at no special place.
     let at = |k: usize, axis: usize| {
         let part = (0.37 + k as f64 * [0.754_877_666_246_692_7, 0.569_840_290_998_053_3][axis]).fract();
@@ -161,7 +163,8 @@ fn touching(frame: &Frame, regions: &Regions) -> Option<[f64; 2]> {
     };
     (0..ANYWHERE).map(|k| [at(k, 0), at(k, 1)]).find(|q| {
         let poses = [0, 1].map(|k| frame.moving[k].place(q[k]));
-        regions.barely_overlap(&poses, 1e-9 * frame.size)
+        !witnesses.blocked(&frame.moving, &poses, [0.0; 2], 2.0 * little, EFFORT)
+            && regions.barely_overlap(&poses, little)
     })
 }
 
@@ -233,12 +236,12 @@ struct Made<'a> {
 impl Made<'_> {
     fn finish(self, budget: usize) -> Result<ConfigurationSpace, SpaceError> {
         let size = self.frame.size;
-        let witnesses = Witnesses::new(&self.regions, size);
+        let witnesses = Witnesses::new(&self.regions, self.repeats, size);
         if let Some(k) = witnesses.thin() {
             return Err(SpaceError::Thin { body: self.system.bodies[self.reduced.bodies[k]].name.clone() });
         }
         let ratios = self.frame.moving.map(|m| m.ratio);
-        if let Some([u, v]) = touching(&self.frame, &self.regions) {
+        if let Some([u, v]) = touching(&self.frame, &self.regions, &witnesses) {
             return Err(SpaceError::Degenerate { at: [u / ratios[0], v / ratios[1]] });
         }
         let levers =
@@ -248,7 +251,8 @@ impl Made<'_> {
         let mut cuts = Cuts::default();
         let mut work = Work::default();
         if self.contact.exists() {
-            work = search(&mut catalogue, &witnesses, &mut cuts, budget)?;
+            let mut proofs = Proofs::new(&self.frame.moving, &self.regions, &witnesses);
+            work = search(&mut catalogue, &mut proofs, &mut cuts, budget)?;
         }
         let judge = Judge { frame: &self.frame, regions: &self.regions, witnesses: &witnesses, levers };
         let (mut pieces, tested) = pieces(&catalogue, &mut cuts, &judge);

@@ -156,12 +156,17 @@ impl Span {
     }
 
     fn meets(&self, other: &Self) -> bool {
+        self.crossings(other) > 0
+    }
+
+    /// How often two spans cross.
+    pub fn crossings(&self, other: &Self) -> usize {
         match (self, other) {
             (Span::Line { from: a, to: b }, Span::Line { from: c, to: d }) => {
                 let (s, t) = (*b - *a, *d - *c);
                 let (p, q) = (s.cross(*c - *a), s.cross(*d - *a));
                 let (m, n) = (t.cross(*a - *c), t.cross(*b - *c));
-                (p > 0.0) != (q > 0.0) && (m > 0.0) != (n > 0.0) && s.cross(t) != 0.0
+                usize::from((p > 0.0) != (q > 0.0) && (m > 0.0) != (n > 0.0) && s.cross(t) != 0.0)
             }
             (Span::Line { from, to }, Span::Arc { center, radius, sector })
             | (Span::Arc { center, radius, sector }, Span::Line { from, to }) => {
@@ -170,11 +175,12 @@ impl Span {
                 let t = d * (1.0 / length);
                 let (along, h) = (t.dot(*center - *from), t.cross(*center - *from));
                 let square = (radius - h) * (radius + h);
-                square >= 0.0
-                    && [-1.0, 1.0].iter().any(|sign| {
-                        let s = along + sign * square.sqrt();
-                        s >= 0.0 && s <= length && sector.has(*from + t * s - *center)
-                    })
+                if square < 0.0 {
+                    return 0;
+                }
+                let half = square.sqrt();
+                let on = |s: f64| s >= 0.0 && s <= length && sector.has(*from + t * s - *center);
+                [along - half, along + half].into_iter().filter(|s| on(*s)).count()
             }
             (
                 Span::Arc { center: a, radius: r, sector: sa },
@@ -185,14 +191,12 @@ impl Span {
                 let (sum, difference) = (r + s, r - s);
                 let square = (sum * sum - dd) * (dd - difference * difference);
                 if square < 0.0 || dd == 0.0 {
-                    return false;
+                    return 0;
                 }
                 let along = (dd + sum * difference) / (2.0 * dd);
                 let across = square.sqrt() / (2.0 * dd);
-                [-1.0, 1.0].iter().any(|sign| {
-                    let p = e * along + e.perp() * (sign * across);
-                    sa.has(p) && sb.has(p - e)
-                })
+                let on = |p: Vec2| sa.has(p) && sb.has(p - e);
+                [-1.0, 1.0].into_iter().filter(|side| on(e * along + e.perp() * (side * across))).count()
             }
         }
     }

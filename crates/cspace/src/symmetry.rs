@@ -1,6 +1,6 @@
 //! Repeated teeth: the greatest n for which a turn by 2π/n about the body's axis maps its outline onto itself.
 
-use crate::region::Section;
+use crate::section::Section;
 use crate::span::Span;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;

@@ -7,6 +7,8 @@ use mainspring_geometry::Vec2;
 pub(crate) struct Node {
     pub center: Vec2,
     pub radius: f64,
+    /// Distance of the centre from the body's origin, about which it turns.
+    pub arm: f64,
     /// Item of a leaf, or the second child (the first follows its parent).
     pub link: u32,
     pub leaf: bool,
@@ -33,21 +35,23 @@ impl Discs {
         let at = self.nodes.len();
         if let [only] = *chosen {
             let (center, radius) = items[only as usize];
-            self.nodes.push(Node { center, radius, link: only, leaf: true });
+            self.nodes.push(Node { center, radius, arm: center.norm(), link: only, leaf: true });
             return;
         }
         let center = |i: u32| items[i as usize].0;
         let mean = chosen.iter().fold(Vec2::default(), |s, &i| s + center(i)) * (1.0 / chosen.len() as f64);
         let radius =
             chosen.iter().map(|&i| (center(i) - mean).norm() + items[i as usize].1).fold(0.0, f64::max);
-        self.nodes.push(Node { center: mean, radius, link: 0, leaf: false });
+        self.nodes.push(Node { center: mean, radius, arm: mean.norm(), link: 0, leaf: false });
         let spread = |key: fn(Vec2) -> f64| {
             let keys = chosen.iter().map(|&i| key(center(i)));
             keys.clone().fold(f64::MIN, f64::max) - keys.fold(f64::MAX, f64::min)
         };
         let key: fn(Vec2) -> f64 = if spread(|c| c.x) >= spread(|c| c.y) { |c| c.x } else { |c| c.y };
-        chosen.sort_by(|&i, &j| key(center(i)).total_cmp(&key(center(j))).then(i.cmp(&j)));
-        let (first, second) = chosen.split_at_mut(chosen.len() / 2);
+        let half = chosen.len() / 2;
+        chosen
+            .select_nth_unstable_by(half, |&i, &j| key(center(i)).total_cmp(&key(center(j))).then(i.cmp(&j)));
+        let (first, second) = chosen.split_at_mut(half);
         self.build(items, first);
         self.nodes[at].link = self.nodes.len() as u32;
         self.build(items, second);
@@ -56,5 +60,20 @@ impl Discs {
     /// The children of an inner node.
     pub fn children(&self, at: u32) -> [u32; 2] {
         [at + 1, self.nodes[at as usize].link]
+    }
+
+    /// Greatest value of the items under each node.
+    pub fn greatest(&self, value: impl Fn(u32) -> f64) -> Vec<f64> {
+        let mut found = vec![0.0; self.nodes.len()];
+        for i in (0..self.nodes.len()).rev() {
+            let node = &self.nodes[i];
+            found[i] = if node.leaf {
+                value(node.link)
+            } else {
+                let [a, b] = self.children(i as u32).map(|k| found[k as usize]);
+                f64::max(a, b)
+            };
+        }
+        found
     }
 }

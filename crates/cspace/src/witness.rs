@@ -1,16 +1,23 @@
 //! Discs inside bodies: two of them that overlap by more than a cell's motion prove the whole cell blocked.
 
 use crate::moving::Moving;
-use crate::region::{Regions, Section};
+use crate::reduce::relative;
+use crate::region::Regions;
+use crate::section::Section;
 use crate::span::Span;
 use crate::tree::Discs;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
+use std::f64::consts::TAU;
 
 /// Discs sampled per section, besides one for each span.
 const SAMPLES: f64 = 120.0;
-/// Pairs of tree nodes looked at for one cell.
-const EFFORT: usize = 200;
+/// Pairs of tree nodes looked at for one configuration.
+pub(crate) const EFFORT: usize = 1000;
+/// A straight side with less material behind it than this (relative to the size) belongs to a body too thin to map.
+const THIN: f64 = 1e-9;
+/// Nearer than this (relative to the size, or in radians) two places count as one.
+const NEARLY: f64 = 1e-9;
 
 /// Discs inside one section: centres and radii in local coordinates, and a tree over the centres.
 #[derive(Clone, Debug)]
@@ -23,9 +30,6 @@ struct Inside {
     thin: bool,
 }
 
-/// A straight side with less material behind it than this (relative to the size) belongs to a body too thin to map.
-const THIN: f64 = 1e-9;
-
 /// Discs inside all sections of both bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Witnesses {
@@ -34,31 +38,44 @@ pub(crate) struct Witnesses {
 }
 
 impl Inside {
-    fn new(section: &Section, size: f64) -> Self {
+    /// Of a section that turned by a `repeats`-th of a turn is the same: one sector's discs stand for all.
+    fn new(section: &Section, repeats: u32, size: f64) -> Self {
         let total: f64 = section.spans.iter().map(|s| s.length()).sum();
         let (mut discs, mut thin) = (Vec::new(), false);
-        for (span, convex) in section.spans.iter().zip(section.convex()) {
+        for (span, convex) in section.spans.iter().zip(&section.convex) {
+            let at = span.disc().0;
+            if !in_first_sector(at, repeats) {
+                continue;
+            }
             let count = 1 + (SAMPLES * span.length() / total).min(SAMPLES) as usize;
-            let grown = span.samples(count, *convex).into_iter().map(|(p, n)| grow(section, p, n, size));
-            discs.extend(grown.flatten());
+            let grown =
+                span.samples(count, *convex).into_iter().filter_map(|(p, n)| grow(section, p, n, size));
+            let copies = if at.norm() > NEARLY * size { repeats } else { 1 };
+            discs.extend(grown.flat_map(|d| all_round(d, copies)));
             let middle = span.samples(1, *convex)[0];
             let side = matches!(span, Span::Line { .. }) && span.length() > 1e-6 * size;
             thin |= side && !section.contains(middle.0 + middle.1 * (THIN * size));
         }
         let centers: Vec<_> = discs.iter().map(|d| (d.0, 0.0)).collect();
         let tree = Discs::new(&centers);
-        let mut greatest = vec![0.0; tree.nodes.len()];
-        for i in (0..tree.nodes.len()).rev() {
-            let node = &tree.nodes[i];
-            greatest[i] = if node.leaf {
-                discs[node.link as usize].1
-            } else {
-                let [a, b] = tree.children(i as u32).map(|k| greatest[k as usize]);
-                f64::max(a, b)
-            };
-        }
+        let greatest = tree.greatest(|k| discs[k as usize].1);
         Inside { discs, tree, greatest, thin }
     }
+}
+
+/// Is a point in the first of `repeats` equal sectors about the origin, or on its edges?
+fn in_first_sector(p: Vec2, repeats: u32) -> bool {
+    let sector = TAU / f64::from(repeats);
+    let angle = p.y.atan2(p.x).rem_euclid(TAU);
+    repeats == 1 || angle <= sector + NEARLY || angle >= TAU - NEARLY
+}
+
+/// A disc and its copies in equal steps about the origin.
+fn all_round((center, radius): (Vec2, f64), repeats: u32) -> impl Iterator<Item = (Vec2, f64)> {
+    (0..repeats).map(move |k| {
+        let (sin, cos) = (f64::from(k) * TAU / f64::from(repeats)).sin_cos();
+        (Vec2::new(cos * center.x - sin * center.y, sin * center.x + cos * center.y), radius)
+    })
 }
 
 /// The greatest disc inside that touches the boundary at `p` with inward normal `n`, a little smaller.
@@ -79,8 +96,9 @@ fn grow(section: &Section, p: Vec2, n: Vec2, size: f64) -> Option<(Vec2, f64)> {
 }
 
 impl Witnesses {
-    pub fn new(regions: &Regions, size: f64) -> Self {
-        let all = |k: usize| regions.sections[k].iter().map(|s| Inside::new(s, size)).collect();
+    /// For bodies that repeat so often in a turn.
+    pub fn new(regions: &Regions, repeats: [u32; 2], size: f64) -> Self {
+        let all = |k: usize| regions.sections[k].iter().map(|s| Inside::new(s, repeats[k], size)).collect();
         let facing = regions.facing.iter().map(|f| (f.0, f.1)).collect();
         Witnesses { inside: [all(0), all(1)], facing }
     }
@@ -90,48 +108,62 @@ impl Witnesses {
         (0..2).find(|&k| self.inside[k].iter().any(|i| i.thin))
     }
 
-    /// Is every configuration within half widths `half` of these poses surely blocked? A disc's centre moves by at most
-    /// its lever times the half width. False means nothing.
-    pub fn blocked(&self, moving: &[Moving; 2], poses: &[Pose; 2], half: [f64; 2]) -> bool {
-        self.facing
-            .iter()
-            .any(|&(i, j)| self.pair_blocked(&self.inside[0][i], &self.inside[1][j], moving, poses, half))
-    }
-
-    fn pair_blocked(
+    /// Is every configuration within half widths `half` of these poses surely blocked, by more than `depth` (a length)?
+    /// A disc's centre moves by at most its lever times the half width. False, after looking at `effort` pairs of tree nodes
+    /// or all, means nothing.
+    pub fn blocked(
         &self,
-        a: &Inside,
-        b: &Inside,
         moving: &[Moving; 2],
         poses: &[Pose; 2],
         half: [f64; 2],
+        depth: f64,
+        effort: usize,
     ) -> bool {
-        if a.discs.is_empty() || b.discs.is_empty() {
+        let rel = relative(&poses[0], &poses[1]);
+        self.facing.iter().any(|&(i, j)| {
+            Two { a: &self.inside[0][i], b: &self.inside[1][j], moving, rel, half, depth }.overlap(effort)
+        })
+    }
+
+    /// With the bodies exchanged.
+    pub fn transposed(&self) -> Self {
+        let [a, b] = self.inside.clone();
+        Witnesses { inside: [b, a], facing: self.facing.iter().map(|&(i, j)| (j, i)).collect() }
+    }
+}
+
+/// Two sections about a configuration.
+struct Two<'a> {
+    a: &'a Inside,
+    b: &'a Inside,
+    moving: &'a [Moving; 2],
+    /// b_from_a
+    rel: Pose,
+    half: [f64; 2],
+    depth: f64,
+}
+
+impl Two<'_> {
+    /// Is there a pair of discs that overlap throughout? Most promising nodes first.
+    fn overlap(&self, effort: usize) -> bool {
+        if self.a.discs.is_empty() || self.b.discs.is_empty() {
             return false;
         }
-        let [m1, m2] = moving;
-        let bound = |i: u32, j: u32| {
-            let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
-            let apart = (poses[0].apply(m.center) - poses[1].apply(n.center)).norm();
-            let motion = half[0] * m1.lever(m.center, -m.radius).max(0.0)
-                + half[1] * m2.lever(n.center, -n.radius).max(0.0);
-            apart - m.radius - n.radius - a.greatest[i as usize] - b.greatest[j as usize] + motion
-        };
-        let mut pending = vec![(bound(0, 0), 0u32, 0u32)];
-        for _ in 0..EFFORT {
+        let mut pending = vec![(self.least(0, 0), 0u32, 0u32)];
+        for _ in 0..effort {
             let Some((least, i, j)) = pending.pop() else { return false };
             if least >= 0.0 {
                 continue;
             }
-            let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
+            let (m, n) = (&self.a.tree.nodes[i as usize], &self.b.tree.nodes[j as usize]);
             if m.leaf && n.leaf {
                 return true;
             }
             let first = !m.leaf && (n.leaf || m.radius >= n.radius);
             let mut next = if first {
-                a.tree.children(i).map(|k| (bound(k, j), k, j))
+                self.a.tree.children(i).map(|k| (self.least(k, j), k, j))
             } else {
-                b.tree.children(j).map(|k| (bound(i, k), i, k))
+                self.b.tree.children(j).map(|k| (self.least(i, k), i, k))
             };
             if next[0].0 < next[1].0 {
                 next.swap(0, 1);
@@ -140,12 +172,15 @@ impl Witnesses {
         }
         false
     }
-}
 
-impl Witnesses {
-    /// With the bodies exchanged.
-    pub fn transposed(&self) -> Self {
-        let [a, b] = self.inside.clone();
-        Witnesses { inside: [b, a], facing: self.facing.iter().map(|&(i, j)| (j, i)).collect() }
+    /// The least that discs under two nodes can be apart, in the worst configuration of the cell.
+    fn least(&self, i: u32, j: u32) -> f64 {
+        let (m, n) = (&self.a.tree.nodes[i as usize], &self.b.tree.nodes[j as usize]);
+        let [m1, m2] = self.moving;
+        let apart = (self.rel.apply(m.center) - n.center).norm();
+        let motion =
+            self.half[0] * m1.lever_of(m.arm, -m.radius) + self.half[1] * m2.lever_of(n.arm, -n.radius);
+        let radii = m.radius + n.radius + self.a.greatest[i as usize] + self.b.greatest[j as usize];
+        apart - radii + motion + self.depth
     }
 }
