@@ -9,7 +9,6 @@ use crate::cross::Cuts;
 use crate::element::{Element, Frame};
 use crate::pairs::Catalogue;
 use crate::region::Regions;
-use crate::witness::{EFFORT, Witnesses};
 
 /// How far off its contact a stretch is tested: a gap, relative to the size.
 pub(crate) const HAIR: f64 = 1e-9;
@@ -36,7 +35,6 @@ impl Piece {
 pub(crate) struct Judge<'a> {
     pub frame: &'a Frame,
     pub regions: &'a Regions,
-    pub witnesses: &'a Witnesses,
     /// Greatest levers of both bodies, at least a bit of the size.
     pub levers: [f64; 2],
 }
@@ -46,7 +44,7 @@ impl Judge<'_> {
     pub fn blocked(&self, u: f64, v: f64) -> bool {
         let m = &self.frame.moving;
         let poses = [m[0].place(u), m[1].place(v)];
-        self.witnesses.blocked(m, &poses, [0.0; 2], 0.0, EFFORT) || self.regions.overlap(&poses)
+        self.regions.overlap(&poses)
     }
 
     /// The side of an element on which it is free at a configuration on it; none if it is blocked.

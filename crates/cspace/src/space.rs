@@ -41,7 +41,6 @@ pub struct ConfigurationSpace {
     pub(crate) links: Vec<Link>,
     pub(crate) cells: Parts,
     pub(crate) regions: Regions,
-    pub(crate) witnesses: Witnesses,
     pub(crate) levers: [f64; 2],
     /// The same map with its coordinates exchanged, made when first needed.
     pub(crate) transposed: OnceLock<Arc<Result<ConfigurationSpace, SpaceError>>>,
@@ -254,7 +253,7 @@ impl Made<'_> {
             let mut proofs = Proofs::new(&self.frame.moving, &self.regions, &witnesses);
             work = search(&mut catalogue, &mut proofs, &mut cuts, budget)?;
         }
-        let judge = Judge { frame: &self.frame, regions: &self.regions, witnesses: &witnesses, levers };
+        let judge = Judge { frame: &self.frame, regions: &self.regions, levers };
         let (mut pieces, tested) = pieces(&catalogue, &mut cuts, &judge);
         weld(&catalogue, &self.frame, &mut pieces);
         work.tested = tested;
@@ -277,7 +276,6 @@ impl Made<'_> {
             links,
             cells,
             regions: self.regions,
-            witnesses,
             levers,
             transposed: OnceLock::new(),
             parts: self.parts,

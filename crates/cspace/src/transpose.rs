@@ -11,7 +11,6 @@ use crate::pieces::Piece;
 use crate::region::Regions;
 use crate::slabs::{Atlas, build};
 use crate::space::ConfigurationSpace;
-use crate::witness::Witnesses;
 use std::sync::{Arc, OnceLock};
 
 /// A piece flatter than this (scaled position) becomes upright.
@@ -95,10 +94,8 @@ impl ConfigurationSpace {
     fn transpose(&self) -> Result<ConfigurationSpace, SpaceError> {
         let atlas = self.atlas.transposed();
         let regions = self.regions.transposed();
-        let witnesses: Witnesses = self.witnesses.transposed();
         let levers = swap(&self.levers);
-        let judge =
-            crate::pieces::Judge { frame: &atlas.frame, regions: &regions, witnesses: &witnesses, levers };
+        let judge = crate::pieces::Judge { frame: &atlas.frame, regions: &regions, levers };
         let ratios = atlas.frame.moving.map(|m| m.ratio);
         let slabs = build(&atlas, &judge, |at| [at[1] / ratios[1], at[0] / ratios[0]])?;
         let links = links(&slabs, &atlas);
@@ -115,7 +112,6 @@ impl ConfigurationSpace {
             links,
             cells,
             regions,
-            witnesses,
             levers,
             transposed: OnceLock::new(),
             parts: swap(&self.parts),

@@ -20,7 +20,7 @@ const THIN: f64 = 1e-9;
 const NEARLY: f64 = 1e-9;
 
 /// Discs inside one section: centres and radii in local coordinates, and a tree over the centres.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Inside {
     discs: Vec<(Vec2, f64)>,
     tree: Discs,
@@ -31,7 +31,7 @@ struct Inside {
 }
 
 /// Discs inside all sections of both bodies.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Witnesses {
     inside: [Vec<Inside>; 2],
     facing: Vec<(usize, usize)>,
@@ -123,12 +123,6 @@ impl Witnesses {
         self.facing.iter().any(|&(i, j)| {
             Two { a: &self.inside[0][i], b: &self.inside[1][j], moving, rel, half, depth }.overlap(effort)
         })
-    }
-
-    /// With the bodies exchanged.
-    pub fn transposed(&self) -> Self {
-        let [a, b] = self.inside.clone();
-        Witnesses { inside: [b, a], facing: self.facing.iter().map(|&(i, j)| (j, i)).collect() }
     }
 }
 

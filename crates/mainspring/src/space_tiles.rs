@@ -46,14 +46,17 @@ fn successors(features: &[Feature], turn: &TileTurn, tolerance: f64) -> Vec<usiz
         turn.center + Vec2::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
     };
     let points: Vec<[Vec2; 3]> = features.iter().map(landmarks).collect();
+    let mut order: Vec<usize> = (0..features.len()).collect();
+    order.sort_by(|&i, &j| points[i][0].x.total_cmp(&points[j][0].x));
     let find = |i: usize| {
         let wanted = points[i].map(turned);
+        let x = wanted[0].x;
         let off = |j: usize| (0..3).map(|k| (points[j][k] - wanted[k]).norm()).fold(0.0, f64::max);
-        let like = |j: &usize| {
-            std::mem::discriminant(&features[*j].shape) == std::mem::discriminant(&features[i].shape)
-        };
-        let nearest = (0..features.len()).filter(like).min_by(|a, b| off(*a).total_cmp(&off(*b)));
-        nearest.filter(|j| off(*j) <= tolerance).unwrap_or(i)
+        let kind = |j: usize| std::mem::discriminant(&features[j].shape);
+        let first = order.partition_point(|&j| points[j][0].x < x - tolerance);
+        let beside = order[first..].iter().copied().take_while(|&j| points[j][0].x <= x + tolerance);
+        let alike = beside.filter(|&j| kind(j) == kind(i) && off(j) <= tolerance);
+        alike.min_by(|&a, &b| off(a).total_cmp(&off(b)).then(a.cmp(&b))).unwrap_or(i)
     };
     (0..features.len()).map(find).collect()
 }
