@@ -57,7 +57,7 @@ pub(crate) fn search(
         }
         let poses = [0, 1].map(|k| frame.moving[k].place(cell.center[k]));
         let motion = [levers[0] * cell.half[0], levers[1] * cell.half[1]];
-        if proofs.cross(&poses, cell.half) {
+        if proofs.cross(&poses, cell.half, front.len()) {
             work.blocked += 1;
             continue;
         }

@@ -10,7 +10,7 @@ use crate::region::{Ignored, Regions};
 use crate::section::Section;
 use mainspring_mechanism::Pose;
 
-/// Pairs of tree nodes looked at for one box.
+/// Pairs of tree nodes looked at for one box at most.
 const EFFORT: usize = 1500;
 /// Pairs of leaves remembered.
 const REMEMBERED: usize = 8;
@@ -22,13 +22,15 @@ pub(crate) struct Crossed {
     next: usize,
 }
 
-/// Is every configuration within half widths `half` of these poses surely blocked? False means nothing.
+/// Is every configuration within half widths `half` of these poses surely blocked? False, after looking at `effort` pairs
+/// of tree nodes or all, means nothing.
 pub(crate) fn cross_throughout(
     regions: &Regions,
     moving: &[Moving; 2],
     poses: &[Pose; 2],
     half: [f64; 2],
     crossed: &mut Crossed,
+    effort: usize,
 ) -> bool {
     let (rel, rounding) = (relative(&poses[0], &poses[1]), 1e3 * regions.rounding);
     let two = |f: usize| {
@@ -39,7 +41,7 @@ pub(crate) fn cross_throughout(
         return true;
     }
     for (f, (.., ignored)) in regions.facing.iter().enumerate() {
-        if let Some((i, j)) = two(f).find(ignored) {
+        if let Some((i, j)) = two(f).find(ignored, effort) {
             crossed.leaves[crossed.next % REMEMBERED] = Some((f, i, j));
             crossed.next += 1;
             return true;
@@ -61,11 +63,11 @@ struct Two<'a> {
 
 impl Two<'_> {
     /// Leaves whose spans cross throughout, if they are found soon.
-    fn find(&self, ignored: &Ignored) -> Option<(u32, u32)> {
+    fn find(&self, ignored: &Ignored, effort: usize) -> Option<(u32, u32)> {
         let (ta, tb) = (&self.a.tree, &self.b.tree);
         let mut pending =
             if ta.nodes.is_empty() || tb.nodes.is_empty() { vec![] } else { vec![(0u32, 0u32)] };
-        for _ in 0..EFFORT {
+        for _ in 0..effort.min(EFFORT) {
             let (i, j) = pending.pop()?;
             let (m, n) = (&ta.nodes[i as usize], &tb.nodes[j as usize]);
             if !self.may_cross(i, j) {

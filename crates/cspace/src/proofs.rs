@@ -15,6 +15,9 @@ const AT_FIRST: f64 = 0.25;
 /// Boxes over which success is averaged.
 const MEMORY: f64 = 100.0;
 
+/// Pairs of tree nodes looked at for crossing boundaries, for each pair of nodes that may touch in the box.
+const NODES: usize = 10;
+
 /// What proves boxes blocked, and what it learnt on the way.
 pub(crate) struct Proofs<'a> {
     moving: &'a [Moving; 2],
@@ -30,9 +33,9 @@ impl<'a> Proofs<'a> {
         Proofs { moving, regions, witnesses, crossed: Crossed::default(), success: AT_FIRST }
     }
 
-    /// Do boundaries cross throughout?
-    pub fn cross(&mut self, poses: &[Pose; 2], half: [f64; 2]) -> bool {
-        cross_throughout(self.regions, self.moving, poses, half, &mut self.crossed)
+    /// Do boundaries cross throughout? Worth the more, the more may touch in the box.
+    pub fn cross(&mut self, poses: &[Pose; 2], half: [f64; 2], pairs: usize) -> bool {
+        cross_throughout(self.regions, self.moving, poses, half, &mut self.crossed, NODES * pairs)
     }
 
     /// Do discs inside overlap throughout? Worth the more, the more feature pairs may touch in the box.
