@@ -10,7 +10,7 @@ use crate::balance::hold;
 use crate::impact::{Impulse, add_impulse, impact, quieten};
 use crate::inertia::Inertia;
 use crate::linear::Small;
-use crate::near::{choose, near_touches};
+use crate::near::{Near, choose, near_touches, reach_of};
 use crate::world::World;
 use mainspring_mechanism::{Candidate, ContactId, Row};
 
@@ -80,6 +80,8 @@ pub struct Instant<'a> {
     pub speeds: &'a [f64],
     /// Contacts closed before.
     pub closed: &'a [Closed],
+    /// Contacts kept closed drift: a rate of theirs below this fraction of the speeds at hand is no blow.
+    pub drift: f64,
     /// A contact to leave out unless the others would make it overlap: its force has come to zero, or it ran off
     /// its feature.
     pub leaving: Option<ContactId>,
@@ -88,6 +90,14 @@ pub struct Instant<'a> {
     pub chattering: Option<f64>,
     /// A coordinate that dry friction no longer holds, and the direction in which it goes.
     pub giving: Option<(usize, f64)>,
+}
+
+/// Is a blow no more than a kept contact's drift?
+fn is_drift(instant: &Instant, near: &[Near], blow: &Impulse) -> bool {
+    let id = blow.candidate.id;
+    let reach =
+        near.iter().find(|n| n.touch.candidate.id == id).map_or(0.0, |n| reach_of(&n.row, instant.speeds));
+    instant.closed.iter().any(|c| c.candidate.id == id) && blow.rate.abs() <= instant.drift * reach
 }
 
 /// Resolves an instant; `v` is changed by impacts.
@@ -104,6 +114,9 @@ pub fn settle(world: &mut World, instant: &Instant, v: &mut [f64]) -> Settled {
             break;
         }
         touches = choose(world, instant, &near, v);
+    }
+    if out.impulses.iter().all(|blow| is_drift(instant, &near, blow)) {
+        out.impulses.clear();
     }
     if let Some(rate) = instant.chattering {
         // At rest all that touches counts: also a corner that was on its way off a face.

@@ -40,13 +40,15 @@ impl std::error::Error for Error {}
 #[derive(Clone, Debug)]
 pub(crate) struct Fault {
     pub place: Place,
+    /// Another place that has a share in it.
+    pub also: Option<Place>,
     pub message: String,
 }
 
 impl Fault {
     /// Boxed, so that the results of the parser's many small functions stay small.
     pub fn new(place: Place, message: impl Into<String>) -> Box<Self> {
-        Box::new(Self { place, message: message.into() })
+        Box::new(Self { place, also: None, message: message.into() })
     }
 }
 

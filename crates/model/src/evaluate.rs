@@ -70,7 +70,8 @@ impl Machine {
         let value = match (given, &self.definitions[i]) {
             (Some(value), _) => value,
             (None, Some(expression)) => expression.evaluate(numbers).map_err(|mut fault| {
-                fault.message = format!("in {name}: {}", fault.message);
+                let causes = self.causes(&[expression], numbers);
+                fault.message = format!("in {name}: {}{causes}", fault.message);
                 fault
             })?,
             (None, None) => {

@@ -1,6 +1,6 @@
 //! Contact modes: what happens at an instant, and how every coordinate moves from then on.
 
-use super::{MOST_AT_ONCE, Simulation};
+use super::{LOOSEST, MOST_AT_ONCE, Simulation};
 use crate::component::Component;
 use crate::events::entries;
 use crate::flight::{Flight, State};
@@ -22,6 +22,7 @@ impl Simulation<'_> {
             q: &self.q,
             speeds: &self.speeds,
             closed: &self.closed,
+            drift: self.options.rtol.min(LOOSEST),
             leaving: change.and_then(Change::leaving),
             chattering: (self.at_once > MOST_AT_ONCE / 2).then_some(f64::INFINITY),
             giving: change.and_then(Change::giving),

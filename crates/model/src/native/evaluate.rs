@@ -86,7 +86,7 @@ impl Machine {
     }
 
     /// Adds to an error about a boundary which part, loop and segment it is about, and the parameters behind it: those
-    /// of the segment, or of its `whole` loop.
+    /// of the segment, or of its `whole` loop; likewise for the other place that has a share in it.
     fn explained<T, S: Scalar>(
         &self,
         profile: &Profile,
@@ -96,7 +96,7 @@ impl Machine {
     ) -> Result<T, Error> {
         result.map_err(|fault| {
             let mut message = fault.message;
-            let used = match find(profile, fault.place) {
+            let mut used = match find(profile, fault.place) {
                 Some((l, edge)) => {
                     if !message.starts_with("part ") {
                         let at = edge
@@ -107,13 +107,16 @@ impl Machine {
                 }
                 None => profile.layers.iter().flat_map(|l| l.z.iter().flatten()).collect(),
             };
+            if let Some((l, edge)) = fault.also.and_then(|place| find(profile, place)) {
+                used.extend(around(l, edge.map(|e| e.0).filter(|_| !whole)));
+            }
             message += &self.causes(&used, numbers);
             self.error(fault.place, message)
         })
     }
 
     /// The parameters that some expressions come from, with their values: those written as numbers.
-    fn causes<S: Scalar>(&self, used: &[&Expression], numbers: &[S]) -> String {
+    pub(crate) fn causes<S: Scalar>(&self, used: &[&Expression], numbers: &[S]) -> String {
         let of = |e: &Expression| -> Vec<u32> {
             e.ops.iter().filter_map(|op| if let NumOp::Value(i) = op { Some(*i) } else { None }).collect()
         };

@@ -91,7 +91,7 @@ impl Profile {
         if written(first) > written(second) {
             std::mem::swap(&mut first, &mut second);
         }
-        let place = self.place(text, layer, second);
+        let [other, place] = [first, second].map(|at| self.place(text, layer, at));
         let (first, second) = (self.words(text, layer, first), self.words(text, layer, second));
         let message = format!(
             "part {}, {second}: it touches or crosses {first} near ({}, {}); expected boundaries that keep apart",
@@ -99,7 +99,9 @@ impl Profile {
             number(found.point.x),
             number(found.point.y)
         );
-        Fault::new(place, message)
+        let mut fault = Fault::new(place, message);
+        fault.also = Some(other);
+        fault
     }
 
     /// A hole lies in an odd number of other loops, an outer boundary in an even number.
