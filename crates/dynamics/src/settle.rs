@@ -92,12 +92,12 @@ pub struct Instant<'a> {
     pub giving: Option<(usize, f64)>,
 }
 
-/// Is a blow no more than a kept contact's drift?
+/// Is a blow no more than the drift of a contact kept closed, there or at the next feature along the same normal?
 fn is_drift(instant: &Instant, near: &[Near], blow: &Impulse) -> bool {
-    let id = blow.candidate.id;
-    let reach =
-        near.iter().find(|n| n.touch.candidate.id == id).map_or(0.0, |n| reach_of(&n.row, instant.speeds));
-    instant.closed.iter().any(|c| c.candidate.id == id) && blow.rate.abs() <= instant.drift * reach
+    let Some(hit) = near.iter().find(|n| n.touch.candidate.id == blow.candidate.id) else { return false };
+    let is_kept = |n: &Near| instant.closed.iter().any(|c| c.candidate.id == n.touch.candidate.id);
+    near.iter().any(|n| is_kept(n) && hit.row.is_nearly_along(&n.row, 100.0 * instant.drift))
+        && blow.rate.abs() <= instant.drift * reach_of(&hit.row, instant.speeds)
 }
 
 /// Resolves an instant; `v` is changed by impacts.

@@ -52,8 +52,13 @@ impl Row {
 
     /// Same coordinates with the same entries, to 1e-9 of the largest.
     pub fn is_along(&self, other: &Self) -> bool {
+        self.is_nearly_along(other, 1e-9)
+    }
+
+    /// Same coordinates with the same entries, to `tolerance` of the largest.
+    pub fn is_nearly_along(&self, other: &Self, tolerance: f64) -> bool {
         let size = self.entries().map(|(_, g)| g.abs()).fold(0.0, f64::max);
-        let near = |(a, b): ((usize, f64), (usize, f64))| a.0 == b.0 && (a.1 - b.1).abs() <= 1e-9 * size;
+        let near = |(a, b): ((usize, f64), (usize, f64))| a.0 == b.0 && (a.1 - b.1).abs() <= tolerance * size;
         self.count == other.count && self.entries().zip(other.entries()).all(near)
     }
 
