@@ -1,4 +1,4 @@
-"""Parameters of the shipped machines at both ends of their ranges: a machine, or an error that says what did it."""
+"""Parameters of the shipped machines at both ends of their ranges: a machine, or an error that says why."""
 
 import re
 

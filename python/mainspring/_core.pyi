@@ -102,13 +102,14 @@ class Mechanism:
         velocities: list[tuple[str, float]] = ...,
         forces: bool = False,
         max_steps: int | None = None,
+        search: str = "direct",
         progress: Callable[[float], bool] | None = None,
     ) -> Run:
         """Run to time `until`, with `rigid` or `compliant` contact.
 
-        `contact_constants` are E, D, M; None: the supplement's. `rtol` None: the model's own.
-        `progress(t)` is called now and then (about every hundred events), never inside a step; returning
-        False stops the run with status `stopped` and everything up to then.
+        `contact_constants` are E, D, M; None: the supplement's. `rtol` None: the model's own. `search` is
+        `direct` or `map`. `progress(t)` is called now and then (about every hundred events), never inside a
+        step; returning False stops the run with status `stopped` and everything up to then.
         """
 
     def predict(

@@ -230,6 +230,7 @@ def simulate(
     velocities: Mapping[str, float] | None = None,
     forces: bool = False,
     max_steps: int | None = None,
+    search: Literal["direct", "map"] = "direct",
     progress: Callable[[float], bool] | None = None,
 ) -> Simulation: ...
 @overload
@@ -244,6 +245,7 @@ def simulate(
     velocities: Mapping[str, float] | None = None,
     forces: bool = False,
     max_steps: int | None = None,
+    search: Literal["direct", "map"] = "direct",
     progress: Callable[[float], bool] | None = None,
 ) -> Comparison[Simulation]: ...
 def simulate(
@@ -257,6 +259,7 @@ def simulate(
     velocities: Mapping[str, float] | None = None,
     forces: bool = False,
     max_steps: int | None = None,
+    search: Literal["direct", "map"] = "direct",
     progress: Callable[[float], bool] | None = None,
 ) -> Simulation | Comparison[Simulation]:
     """Run a mechanism from t = 0 to `until`.
@@ -278,6 +281,10 @@ def simulate(
         Record contact impulses and forces.
     max_steps
         Give up after so many steps, with status `step_limit`; None: the core's own limit.
+    search
+        Where contacts that may close next come from: `direct`, trees of features asked whenever needed; or
+        `map`, boxes of each pair's configuration space, made once on the way. The motion is the same to the
+        last bit.
     progress
         Called now and then with the time reached; returning False stops the run (`stopped`).
 
@@ -302,6 +309,7 @@ def simulate(
             velocities=pairs_of(velocities),
             forces=forces,
             max_steps=max_steps,
+            search=search,
             progress=progress,
         )
         return result_of(made)

@@ -25,6 +25,15 @@ pub enum ContactSearch {
 }
 
 impl ContactSearch {
+    /// By its name, `direct` or `map`.
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "direct" => Some(Self::Direct),
+            "map" => Some(Self::Map),
+            _ => None,
+        }
+    }
+
     fn source<'a>(self, system: &'a System) -> Box<dyn ContactSource + 'a> {
         match self {
             Self::Direct => Box::new(system.direct_search()),

@@ -4,7 +4,7 @@ use crate::errors::{InputError, bad_input, by_index, count};
 use crate::results::{PyPrediction, PyRun, watch};
 use crate::space::{self, PySpace};
 use mainspring::{
-    CompileOptions, ContactChoice, ContactLaw, ContactModel, Machine, MatchOptions, Mechanism,
+    CompileOptions, ContactChoice, ContactLaw, ContactModel, ContactSearch, Machine, MatchOptions, Mechanism,
     PredictOptions, PredictionOptions, SimulationOptions, SpaceRequest, drawing_json, inspect_json,
     parameters_json, predict, simulate,
 };
@@ -91,6 +91,12 @@ fn contact_of(name: &str, constants: Option<(f64, f64, f64)>, rtol: Option<f64>)
     Ok(ContactChoice { model, law, rtol })
 }
 
+fn search_of(name: &str) -> PyResult<ContactSearch> {
+    ContactSearch::named(name).ok_or_else(|| {
+        InputError::new_err(format!("--search:1:1: error: no search {name:?}; expected direct or map"))
+    })
+}
+
 #[pymethods]
 impl PyMechanism {
     /// Parts, pairs, subsystems, interactions as one object.
@@ -119,7 +125,7 @@ impl PyMechanism {
 
     /// Run to time `until`.
     #[pyo3(signature = (until, *, contact = "rigid", contact_constants = None, rtol = None, positions = vec![], velocities = vec![],
-        forces = false, max_steps = None, progress = None))]
+        forces = false, max_steps = None, search = "direct", progress = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
     fn simulate(
         &self,
@@ -132,11 +138,14 @@ impl PyMechanism {
         velocities: Values,
         forces: bool,
         max_steps: Option<u64>,
+        search: &str,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<PyRun> {
         let contact = contact_of(contact, contact_constants, rtol)?;
         let mechanism = self.started(&positions, &velocities)?;
-        let mut options = SimulationOptions { until, contact, forces, ..SimulationOptions::default() };
+        let search = search_of(search)?;
+        let mut options =
+            SimulationOptions { until, contact, forces, search, ..SimulationOptions::default() };
         options.max_steps = max_steps.unwrap_or(options.max_steps);
         let run = watch(py, progress, |progress| simulate(&mechanism, &options, progress))?;
         Ok(PyRun(Arc::new(run.map_err(bad_input)?)))

@@ -128,10 +128,16 @@ def _simulate(commands: "Commands[Parser]") -> None:
     command = _command(commands, "simulate", "run the machine for a stretch of time", example)
     _machine(command)
     _start(command)
-    add = command.add_argument_group("what to keep").add_argument
     command.add_argument(
         "--until", metavar="T", required=True, help="end of the run, in the file's time unit"
     )
+    command.add_argument(
+        "--search",
+        choices=["direct", "map"],
+        default="direct",
+        help="contacts from trees of features or from maps of each pair: the same motion (default: direct)",
+    )
+    add = command.add_argument_group("what to keep").add_argument
     add("--forces", action="store_true", help="ask for contact impulses and forces")
     add("--out", metavar="DIR", help="write result.json and trajectory.npz there")
     add("--csv", action="store_true", help="write trajectory.csv too (needs --out)")

@@ -29,6 +29,7 @@ def run(options: Namespace) -> None:
             mechanism,
             until,
             forces=options.forces,
+            search=options.search,
             progress=progress,
             **contact,
             **start,
