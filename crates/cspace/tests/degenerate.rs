@@ -147,3 +147,31 @@ fn numbers_that_are_not_finite_are_refused() {
     let made = ConfigurationSpace::new(&system(bodies, 4.0), [0, 1], [0, 1], &SpaceOptions::default());
     assert!(matches!(made, Err(SpaceError::NotFinite { .. })), "{:?}", made.err());
 }
+
+/// A pin of radius 0.4 in a channel between two walls, both sliding: the width of the channel less the pin's.
+fn channel(play: f64) -> System {
+    let (low, high) = (-0.4 - 0.5 * play, 0.4 + 0.5 * play);
+    let walls = vec![rectangle(1.0, -2.0, 3.0, low), rectangle(1.0, high, 3.0, 2.0)];
+    let bodies = vec![
+        body("pin", vec![slide(0, 1.0, 0.0)], vec![circle(0.0, 0.0, 0.4, true, 0)]),
+        body("walls", vec![slide(1, 0.0, 1.0)], walls),
+    ];
+    system(bodies, 4.0)
+}
+
+#[test]
+fn a_channel_without_width_is_blocked_or_refused() {
+    let options = SpaceOptions { windows: [Some((-1.0, 5.0)), Some((-1.0, 1.0))], ..SpaceOptions::default() };
+    let map = |play: f64| ConfigurationSpace::new(&channel(play), [0, 1], [0, 1], &options);
+    let open = map(1e-6).unwrap_or_else(|e| panic!("{e}"));
+    assert!(open.way([0.0, 0.0], [4.0, 0.0]).is_some());
+    for play in [0.0, -1e-12, 1e-12] {
+        let Ok(map) = map(play) else { continue };
+        assert!(map.way([0.0, 0.0], [4.0, 0.0]).is_none(), "a way at play {play}");
+        assert!(map.is_free([0.0, 0.3]) && map.is_free([4.0, -0.3]));
+        for x in [1.5, 2.0, 2.5] {
+            assert!(!map.is_free([x, 1e-3]) && !map.is_free([x, -1e-3]));
+        }
+        assert_eq!(map.components().len(), 2);
+    }
+}
