@@ -1,11 +1,13 @@
 """Ctrl-C stops a run between two steps and leaves what is finished usable."""
 
 import json
+import math
 import os
 import signal
 
 import pytest
 
+import mainspring as ms
 import mainspring.simulation
 from conftest import ESCAPEMENT
 from mainspring.cli import main
@@ -53,3 +55,26 @@ def test_no_progress_is_shown_when_piped(capsys, monkeypatch):
         for t in range(9):
             assert progress(float(t)) is True
     assert capsys.readouterr() == ("", "")
+
+
+def _stars(n: int) -> ms.Mechanism:
+    """Two rough stars: their map takes a second or two."""
+    b = ms.Builder("stars")
+    for name, x in (("left", 0.0), ("right", 2.15)):
+        radii = [1 + 0.1 * math.sin(k * k + x) for k in range(n)]
+        points = [
+            (x + r * math.cos(math.tau * k / n), r * math.sin(math.tau * k / n)) for k, r in enumerate(radii)
+        ]
+        outline = ms.Path(points[0], [*(ms.Line(p) for p in points[1:]), ms.Close()])
+        b.part(name, inertia=1, motion=ms.Turns((x, 0)), outer=[outline])
+    return b.build().compile()
+
+
+def test_a_map_tells_its_progress_and_can_be_stopped():
+    mechanism, told = _stars(80), []
+    ms.configuration_space(mechanism, "left", "right", progress=lambda part: told.append(part) or True)
+    assert len(told) > 1
+    assert told == sorted(told)
+    assert 0 <= told[0] < told[-1] <= 1
+    with pytest.raises(KeyboardInterrupt):
+        ms.configuration_space(mechanism, "left", "right", progress=lambda part: part < 0.1)

@@ -84,11 +84,13 @@ class Mechanism:
         coordinates: tuple[str, str] | None,
         windows: list[tuple[str, float, float]],
         held: list[tuple[str, float]],
+        progress: Callable[[float], bool] | None = None,
     ) -> Space:
         """Return the configuration space of parts `a` and `b`; Ctrl-C is heard while it is made.
 
         `coordinates` names the parts whose joints are the two coordinates; `windows` their ranges `(part,
-        low, high)`; `held` the positions of other joints.
+        low, high)`; `held` the positions of other joints. `progress(part)` is told the part done, 0 to 1,
+        twenty times a second; returning False raises KeyboardInterrupt.
         """
 
     def simulate(

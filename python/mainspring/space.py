@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -245,6 +245,7 @@ def configuration_space(
     coordinates: tuple[str, str] | None = None,
     window: Mapping[str, tuple[float, float]] | None = None,
     held: Mapping[str, float] | None = None,
+    progress: Callable[[float], bool] | None = None,
 ) -> ConfigurationSpace:
     """Map where two parts of a mechanism are free and where they block each other.
 
@@ -260,6 +261,8 @@ def configuration_space(
         sliding part can touch; two sliding parts need windows.
     held
         Positions of other joints that move the two parts, by part; by default those of the start.
+    progress
+        Called now and then with the part done, 0 to 1; returning False raises KeyboardInterrupt.
 
     Raises
     ------
@@ -273,7 +276,7 @@ def configuration_space(
     boundary is partitioned (docs/guide/spaces.md).
     """
     windows = [(name, float(r[0]), float(r[1])) for name, r in (window or {}).items()]
-    core = mechanism._inner.configuration_space(a, b, coordinates, windows, pairs_of(held))
+    core = mechanism._inner.configuration_space(a, b, coordinates, windows, pairs_of(held), progress)
     text = core.json()
     o = parse(text)
     first, second = (features_of(json.loads(core.features_json(k))) for k in (0, 1))

@@ -9,12 +9,16 @@ use crate::around::Around;
 use crate::cross::Cuts;
 use crate::error::SpaceError;
 use crate::pairs::{Catalogue, Cell};
+use crate::progress::Progress;
 use crate::proofs::Proofs;
 
 /// Feature pairs at which a box is no longer halved.
 const FEW: usize = 30;
 /// A box is not halved when its motion is below this part of the size.
 const SMALL: f64 = 1e-3;
+
+/// Boxes after which progress is told.
+const TELL: usize = 1000;
 
 /// What the search did: counts of work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +43,7 @@ pub(crate) fn search(
     catalogue: &mut Catalogue,
     proofs: &mut Proofs,
     cuts: &mut Cuts,
-    budget: usize,
+    (budget, progress): (usize, &Progress),
 ) -> Result<Work, SpaceError> {
     let mut work = Work::default();
     if catalogue.trees.iter().any(|t| t.nodes.is_empty()) {
@@ -54,6 +58,14 @@ pub(crate) fn search(
         work.cells += 1;
         if work.cells > budget {
             return Err(SpaceError::TooComplex { budget });
+        }
+        if work.cells % TELL == 0 {
+            // What is pending are halves of halves, one of each size or two.
+            let left: f64 = pending.iter().chain([&(cell, vec![])]).map(|(c, _)| c.half[0] * c.half[1]).sum();
+            progress.tell(1.0 - left / (half[0] * half[1]));
+            if progress.stopped() {
+                return Err(SpaceError::Stopped);
+            }
         }
         let poses = [0, 1].map(|k| frame.moving[k].place(cell.center[k]));
         let motion = [levers[0] * cell.half[0], levers[1] * cell.half[1]];

@@ -22,6 +22,8 @@ pub enum SpaceError {
     NotFinite { body: String },
     /// A body thinner than 1e-9 of the machine's size.
     Thin { body: String },
+    /// Given up as `Progress` asked.
+    Stopped,
     /// More cells, curves or crossings than `SpaceOptions::budget` allows.
     TooComplex { budget: usize },
     /// Free and blocked could not be told apart consistently here (joint coordinates as asked for): contacts
@@ -50,6 +52,7 @@ impl fmt::Display for SpaceError {
             Self::Thin { body } => {
                 write!(f, "{body} is thinner than a billionth of the machine: what it blocks cannot be told")
             }
+            Self::Stopped => write!(f, "stopped"),
             Self::TooComplex { budget } => {
                 write!(f, "more than {budget} cells, curves or crossings; a smaller window may do")
             }

@@ -12,6 +12,7 @@ use crate::moving::{Kind, Moving};
 use crate::options::SpaceOptions;
 use crate::pairs::{Catalogue, Part};
 use crate::pieces::{Judge, pieces, weld};
+use crate::progress::Progress;
 use crate::proofs::Proofs;
 use crate::reduce::{Reduced, reduce};
 use crate::region::Regions;
@@ -62,6 +63,20 @@ impl ConfigurationSpace {
         coordinates: [usize; 2],
         options: &SpaceOptions,
     ) -> Result<Self, SpaceError> {
+        Self::watched(system, bodies, coordinates, options, &Progress::default())
+    }
+
+    /// The same, told and stopped by `progress`.
+    ///
+    /// # Errors
+    /// See [`SpaceError`].
+    pub fn watched(
+        system: &System,
+        bodies: [usize; 2],
+        coordinates: [usize; 2],
+        options: &SpaceOptions,
+        progress: &Progress,
+    ) -> Result<Self, SpaceError> {
         check(system, bodies, coordinates, options)?;
         let reduced = reduce(system, bodies, coordinates, &options.held)?;
         let contact = contact(system, &reduced);
@@ -81,7 +96,7 @@ impl ConfigurationSpace {
         let frame = Frame { moving: reduced.moving, axes: [axes[0], axes[1]], size: system.size };
         let regions = Regions::new(sections, &frame.moving, system.size);
         Made { system, coordinates, bodies, reduced, contact, frame, regions, parts, repeats }
-            .finish(options.budget)
+            .finish(options.budget, progress)
     }
 
     /// Range of the two coordinates within which the map is stored (joint coordinates q).
@@ -233,7 +248,7 @@ struct Made<'a> {
 }
 
 impl Made<'_> {
-    fn finish(self, budget: usize) -> Result<ConfigurationSpace, SpaceError> {
+    fn finish(self, budget: usize, progress: &Progress) -> Result<ConfigurationSpace, SpaceError> {
         let size = self.frame.size;
         let witnesses = Witnesses::new(&self.regions, self.repeats, size);
         if let Some(k) = witnesses.thin() {
@@ -251,7 +266,7 @@ impl Made<'_> {
         let mut work = Work::default();
         if self.contact.exists() {
             let mut proofs = Proofs::new(&self.frame.moving, &self.regions, &witnesses);
-            work = search(&mut catalogue, &mut proofs, &mut cuts, budget)?;
+            work = search(&mut catalogue, &mut proofs, &mut cuts, (budget, progress))?;
         }
         let judge = Judge { frame: &self.frame, regions: &self.regions, levers };
         let (mut pieces, tested) = pieces(&catalogue, &mut cuts, &judge);

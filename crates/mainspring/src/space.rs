@@ -5,7 +5,9 @@
 
 use crate::space_request::{Chosen, SpaceRequest, choose, told};
 use crate::space_tiles::Tiles;
-use mainspring_cspace::{Axis, ConfigurationSpace, End, Gap, Interval, SpaceOptions, Stage, Transmission};
+use mainspring_cspace::{
+    Axis, ConfigurationSpace, End, Gap, Interval, Progress, SpaceOptions, Stage, Transmission,
+};
 use mainspring_mechanism::{Feature, Mechanism, System};
 use mainspring_model::Error;
 
@@ -64,6 +66,18 @@ pub struct Space {
 /// # Errors
 /// Parts or joints that do not exist or do not move, motion that is not planar, and what `mainspring_cspace` refuses.
 pub fn configuration_space(mechanism: &Mechanism, request: &SpaceRequest) -> Result<Space, Error> {
+    watched_space(mechanism, request, &Progress::default())
+}
+
+/// The same, told and stopped by `progress`; stopped, it is an error.
+///
+/// # Errors
+/// As above.
+pub fn watched_space(
+    mechanism: &Mechanism,
+    request: &SpaceRequest,
+    progress: &Progress,
+) -> Result<Space, Error> {
     let system = mechanism.system_of_shapes()?;
     let Chosen { parts, axes, held, windows } = choose(mechanism, &system, request)?;
     let others = |c: &usize| axes.iter().all(|a| a.coordinate != *c);
@@ -74,7 +88,7 @@ pub fn configuration_space(mechanism: &Mechanism, request: &SpaceRequest) -> Res
     }
     let options = SpaceOptions { windows, held: values.clone(), ..SpaceOptions::default() };
     let coordinates = [axes[0].coordinate, axes[1].coordinate];
-    let map = ConfigurationSpace::new(&system, parts, coordinates, &options)
+    let map = ConfigurationSpace::watched(&system, parts, coordinates, &options, progress)
         .map_err(|e| told(&e, &axes, parts.map(|p| mechanism.parts[p].name.as_str())))?;
     let held = held_of(mechanism, &system, parts, &values);
     let marks = marks(mechanism, &axes);

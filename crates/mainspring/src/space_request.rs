@@ -204,6 +204,7 @@ pub(crate) fn told(error: &SpaceError, axes: &[SpaceAxis; 2], names: [&str; 2]) 
                 "{coordinate} moves {a} against {b} through more than one joint; expected one joint for each"
             ),
         ),
+        SpaceError::Stopped => ("cspace", "stopped before the map was made; expected time for it".into()),
         SpaceError::TooComplex { budget } => {
             ("cspace", format!("more than {budget} cells, curves or crossings; expected a smaller window"))
         }

@@ -110,6 +110,8 @@ impl PyMechanism {
     }
 
     /// The configuration space of parts `a` and `b`.
+    #[pyo3(signature = (a, b, coordinates, windows, held, progress = None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
     fn configuration_space(
         &self,
         py: Python<'_>,
@@ -118,9 +120,10 @@ impl PyMechanism {
         coordinates: Option<(String, String)>,
         windows: Vec<(String, f64, f64)>,
         held: Values,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<PySpace> {
         let coordinates = coordinates.map(|(p, q)| [p, q]);
-        space::make(py, &self.0, SpaceRequest { parts: [a, b], coordinates, windows, held })
+        space::make(py, &self.0, SpaceRequest { parts: [a, b], coordinates, windows, held }, progress)
     }
 
     /// Run to time `until`.

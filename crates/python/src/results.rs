@@ -35,7 +35,8 @@ pub fn watch<T: Send>(
     failure.map_or(Ok(done), Err)
 }
 
-fn ask(py: Python<'_>, progress: Option<&Py<PyAny>>, t: f64) -> PyResult<bool> {
+/// Tells Python how far it is; false or an error to stop.
+pub fn ask(py: Python<'_>, progress: Option<&Py<PyAny>>, t: f64) -> PyResult<bool> {
     py.check_signals()?;
     match progress {
         Some(function) => function.bind(py).call1((t,))?.is_truthy(),

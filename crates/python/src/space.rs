@@ -1,9 +1,10 @@
 //! Configuration spaces as Python sees them: joint positions in, arrays out.
 
 use crate::errors::bad_input;
-use mainspring::{End, Mechanism, Space, SpaceRequest, configuration_space};
+use crate::results::ask;
+use mainspring::{End, Mechanism, Progress, Space, SpaceRequest, watched_space};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
@@ -15,20 +16,33 @@ type Point = (f64, f64);
 type Floats<'py> = Bound<'py, PyArray1<f64>>;
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
 
-/// Makes the map in a thread of its own, so that Ctrl-C is heard.
-pub fn make(py: Python<'_>, mechanism: &Mechanism, request: SpaceRequest) -> PyResult<PySpace> {
+/// Makes the map in a thread of its own, so that Ctrl-C is heard; tells `progress` the part done.
+pub fn make(
+    py: Python<'_>,
+    mechanism: &Mechanism,
+    request: SpaceRequest,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<PySpace> {
     let (send, mut receive) = mpsc::channel();
-    let mechanism = mechanism.clone();
+    let (mechanism, shared) = (mechanism.clone(), Arc::new(Progress::default()));
+    let own = shared.clone();
     std::thread::spawn(move || {
         // Nobody listens any more after Ctrl-C.
-        let _ = send.send(Box::new(configuration_space(&mechanism, &request)));
+        let _ = send.send(Box::new(watched_space(&mechanism, &request, &own)));
     });
     loop {
         let waited = py.detach(move || (receive.recv_timeout(LOOK), receive));
         receive = waited.1;
         match waited.0 {
             Ok(made) => return Ok(PySpace(Arc::new(made.map_err(bad_input)?))),
-            Err(mpsc::RecvTimeoutError::Timeout) => py.check_signals()?,
+            Err(mpsc::RecvTimeoutError::Timeout) => {
+                let go_on = ask(py, progress.as_ref(), shared.done());
+                if !matches!(go_on, Ok(true)) {
+                    shared.stop();
+                    go_on?;
+                    return Err(PyKeyboardInterrupt::new_err("stopped before the map was made"));
+                }
+            }
             Err(fault) => return Err(PyValueError::new_err(fault.to_string())),
         }
     }

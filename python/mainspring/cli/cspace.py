@@ -9,6 +9,7 @@ from typing import Any
 import mainspring as ms
 from mainspring.cli import opening, output, tables, values
 from mainspring.cli.faults import Usage
+from mainspring.cli.progress import watch
 from mainspring.cli.values import shortened
 from mainspring.drawing.feature import kind_told, told
 from mainspring.space import ConfigurationSpace
@@ -22,14 +23,16 @@ def run(options: Namespace) -> None:
     mechanism = opening.mechanism(options)
     parts = mechanism.outlines()["parts"]
     motions = {p["name"]: p["motion"]["kind"] for p in parts if p["motion"]}
-    space = ms.configuration_space(
-        mechanism,
-        options.a,
-        options.b,
-        coordinates=_coordinates(options.coordinates),
-        window=_windows(options.window, motions),
-        held=values.coordinates(options.hold, "--hold", motions),
-    )
+    with watch("mapping", 1.0, share=True) as progress:
+        space = ms.configuration_space(
+            mechanism,
+            options.a,
+            options.b,
+            coordinates=_coordinates(options.coordinates),
+            window=_windows(options.window, motions),
+            held=values.coordinates(options.hold, "--hold", motions),
+            progress=progress,
+        )
     own = {axis.coordinate: axis.motion for axis in space.domain}
     points = [_point(text, own) for text in options.at]
     slices = [_slice(text, own) for text in options.slice]

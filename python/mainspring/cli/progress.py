@@ -16,16 +16,16 @@ _REFRESH_SECONDS = 0.1
 
 
 class Watch:
-    """What the core calls with the time reached; says whether to go on."""
+    """What the core calls with the time reached, or the share; says whether to go on."""
 
-    def __init__(self, doing: str, until: float | None) -> None:
+    def __init__(self, doing: str, until: float | None, *, share: bool) -> None:
         self.stopped = False
-        self._doing, self._until = doing, until
+        self._doing, self._until, self._share = doing, until, share
         self._next = time.monotonic() + _QUIET_SECONDS
         self._bar: tuple[Progress, TaskID] | None = None
 
     def __call__(self, t: float) -> bool:
-        """Show the time reached, at most ten times a second."""
+        """Show what is reached, at most ten times a second."""
         now = time.monotonic()
         if now >= self._next and sys.stderr.isatty():
             self._next = now + _REFRESH_SECONDS
@@ -34,7 +34,8 @@ class Watch:
 
     def _show(self, t: float) -> None:
         bar, task = self._bar or self._open()
-        bar.update(task, completed=t, description=f"{self._doing}, t = {t:.4g} s")
+        reached = f"{100 * t:.0f} %" if self._share else f"t = {t:.4g} s"
+        bar.update(task, completed=t, description=f"{self._doing}, {reached}")
         bar.refresh()
 
     def _open(self) -> "tuple[Progress, TaskID]":
@@ -60,9 +61,9 @@ class Watch:
 
 
 @contextmanager
-def watch(doing: str, until: float | None = None) -> Iterator[Watch]:
-    """Show progress and catch Ctrl-C while a run lasts."""
-    watcher = Watch(doing, until)
+def watch(doing: str, until: float | None = None, *, share: bool = False) -> Iterator[Watch]:
+    """Show progress, a time or the `share` that is done, and catch Ctrl-C while a run lasts."""
+    watcher = Watch(doing, until, share=share)
     restore: Callable[[], object] = _catch(watcher)
     try:
         yield watcher
