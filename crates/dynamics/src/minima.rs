@@ -71,9 +71,10 @@ impl MinimumFinder {
             return;
         }
         let motion = Motion { system, paths, masses: chained_masses(system) };
-        let mut samples: Samples = smallvec::smallvec![motion.sample(from)];
-        motion.subdivide(from, to, 0, &mut samples);
-        samples.push(motion.sample(to));
+        let (first, last) = (motion.sample(from), motion.sample(to));
+        let mut samples: Samples = smallvec::smallvec![first];
+        motion.subdivide(first, last, 0, &mut samples);
+        samples.push(last);
         for pair in samples.windows(2) {
             self.between(&motion, pair[0], pair[1]);
         }
@@ -161,35 +162,36 @@ impl Motion<'_> {
         self.own().map(one).sum::<f64>() + chained.sum::<f64>()
     }
 
-    /// Adds samples inside (from, to) until the power changes sign at most once between neighbours.
-    fn subdivide(&self, from: f64, to: f64, depth: u32, samples: &mut Samples) {
-        let middle = self.sample(0.5 * (from + to));
-        let half = 0.5 * (to - from);
-        let certain = middle.power.abs() > self.bend(from, to - from) * half;
+    /// Adds samples between two others until the power changes sign at most once between neighbours.
+    fn subdivide(&self, from: Sample, to: Sample, depth: u32, samples: &mut Samples) {
+        let middle = self.sample(0.5 * (from.t + to.t));
+        let half = 0.5 * (to.t - from.t);
+        let bend = self.bend(from.t, to.t - from.t);
+        let certain = middle.power.abs() > bend * half;
         let enough = depth >= DEEPEST || samples.len() >= MOST_SAMPLES;
-        if certain || enough || half <= 1e-12 * (1.0 + to.abs()) {
+        if certain || enough || half <= 1e-12 * (1.0 + to.t.abs()) {
             samples.push(middle);
             return;
         }
         // A step of the integrator is smooth: few samples tell its shape.
         let smooth = self.paths.iter().all(|p| p.is_rest() || matches!(p, Path::Step { .. }));
-        let short = (smooth || depth >= 3) && self.is_monotone(from, to);
+        let short = (smooth || depth >= 3) && self.is_monotone([from, middle, to], bend);
         if !short {
-            self.subdivide(from, middle.t, depth + 1, samples);
+            self.subdivide(from, middle, depth + 1, samples);
         }
         samples.push(middle);
         if !short {
-            self.subdivide(middle.t, to, depth + 1, samples);
+            self.subdivide(middle, to, depth + 1, samples);
         }
     }
 
     /// Whether the power changes too little over the stretch for a second sign change to matter: its rate keeps
-    /// one sign at five places.
-    fn is_monotone(&self, from: f64, to: f64) -> bool {
-        let powers: Small<f64, 8> =
-            (0..=4).map(|k| self.sample(from + (to - from) * f64::from(k) / 4.0).power).collect();
+    /// one sign at five places, three of which are sampled already. `bend` bounds that rate.
+    fn is_monotone(&self, [from, middle, to]: [Sample; 3], bend: f64) -> bool {
+        let between = |a: Sample, b: Sample| self.sample(0.5 * (a.t + b.t));
+        let powers = [from, between(from, middle), middle, between(middle, to), to].map(|s| s.power);
         // Where powers cancel (a frictionless contact) only rounding is left, and it has no shape.
-        let noise = 1e-13 * (2.0 * self.sample(from).energy * self.bend(from, to - from)).sqrt();
+        let noise = 1e-13 * (2.0 * from.energy * bend).sqrt();
         powers.windows(2).all(|p| p[1] >= p[0] - noise) || powers.windows(2).all(|p| p[1] <= p[0] + noise)
     }
 
@@ -225,7 +227,7 @@ mod tests {
             let paths = [Path::Flight(Flight::new(0.0, start, 1.0, damping, 1e4, -2.0))];
             let motion = Motion { system: &system, paths: &paths, masses: super::chained_masses(&system) };
             let mut samples = Samples::new();
-            motion.subdivide(0.0, 10.0, 0, &mut samples);
+            motion.subdivide(motion.sample(0.0), motion.sample(10.0), 0, &mut samples);
             assert!(
                 samples.len() <= MOST_SAMPLES + 2 * DEEPEST as usize,
                 "damping {damping}: {} samples",
