@@ -86,6 +86,66 @@ fn a_gate_pinches() {
     assert_ne!(shut.component_of([0.1, 0.0]), shut.component_of([3.9, 0.0]));
 }
 
+#[test]
+fn an_arm_turns_all_round_only_if_the_post_can_leave() {
+    // An arm whose corners reach √(l² + w²), a post of radius 0.2 that slides away from the arm's axis.
+    let reach = 1.0f64.hypot(0.05);
+    let s = system(
+        vec![
+            body("arm", vec![turn(0, 0.0, 0.0)], vec![rectangle(-0.05, -0.05, 1.0, 0.05)]),
+            body("post", vec![slide(1, 1.0, 0.0)], vec![circle(0.0, 0.0, 0.2, true, 0)]),
+        ],
+        2.0,
+    );
+    let windings = |most: f64| {
+        let options = SpaceOptions { windows: [None, Some((0.3, most))], ..SpaceOptions::default() };
+        let map = ConfigurationSpace::new(&s, [0, 1], [0, 1], &options).unwrap_or_else(|e| panic!("{e}"));
+        shape(&map)
+    };
+    assert_eq!(windings(reach + 0.2 + 1e-6), vec![(vec![[1, 0]], 2)]);
+    // Either corner of the arm's end stops it, and before the end itself, which reaches less far, there is a pocket.
+    assert_eq!(windings(reach + 0.2 - 1e-6), vec![(vec![], 1), (vec![], 1)]);
+}
+
+#[test]
+fn a_room_has_a_door_or_none() {
+    // A ball of radius 0.4 in a room with a door of some width, or outside; a closed room is a component of its own.
+    let parts = |door: f64| {
+        let (a, b) = (-0.5 * door, 0.5 * door);
+        let room = [
+            (-1.2, -1.2),
+            (1.2, -1.2),
+            (1.2, a),
+            (1.0, a),
+            (1.0, -1.0),
+            (-1.0, -1.0),
+            (-1.0, 1.0),
+            (1.0, 1.0),
+            (1.0, b),
+            (1.2, b),
+            (1.2, 1.2),
+            (-1.2, 1.2),
+        ];
+        let s = system(
+            vec![
+                body("ball", vec![slide(0, 1.0, 0.0)], vec![circle(0.0, 0.0, 0.4, true, 0)]),
+                body("room", vec![slide(1, 0.0, 1.0)], vec![polygon(&room)]),
+            ],
+            4.0,
+        );
+        let windows = [Some((-3.0, 3.0)), Some((-3.0, 3.0))];
+        let options = SpaceOptions { windows, ..SpaceOptions::default() };
+        ConfigurationSpace::new(&s, [0, 1], [0, 1], &options).unwrap_or_else(|e| panic!("{e}"))
+    };
+    // Outside is a ring: a cycle along the window and one round the room, which with an open door runs through it.
+    let open = parts(0.8 + 1e-6);
+    assert_eq!(shape(&open), vec![(vec![], 2)]);
+    assert!(open.way([0.0, 0.0], [2.5, 0.0]).is_some());
+    let shut = parts(0.8 - 1e-6);
+    assert_eq!(shape(&shut), vec![(vec![], 1), (vec![], 2)]);
+    assert!(shut.way([0.0, 0.0], [2.5, 0.0]).is_none());
+}
+
 /// Two wheels with `n` and `m` teeth.
 fn gears(n: usize, m: usize) -> System {
     // Slender teeth: in each pitch of 2π one of height 2.3, so that there is always one in a gap of the other's.
