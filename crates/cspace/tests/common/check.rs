@@ -42,7 +42,7 @@ pub fn compare(space: &ConfigurationSpace, system: &System, random: &mut Random,
     let curves = space.curves();
     let mut tally = Tally::default();
     for k in 0..count {
-        let near = k % 2 == 0 && !curves.is_empty();
+        let near = k % 4 != 0 && !curves.is_empty();
         let q = if near {
             let at = curves[random.below(curves.len())].at(random.next(0.0, 1.0));
             let (off, a) = (10f64.powf(random.next(-7.0, -3.0)), random.next(0.0, TAU));
