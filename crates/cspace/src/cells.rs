@@ -49,9 +49,9 @@ pub(crate) fn search(
     if catalogue.trees.iter().any(|t| t.nodes.is_empty()) {
         return Ok(work);
     }
-    let frame = catalogue.frame;
-    let half = frame.axes.map(|a| 0.5 * a.length);
-    let center = [0, 1].map(|k| frame.axes[k].start + half[k]);
+    let axes = &catalogue.frame.axes;
+    let half = [0, 1].map(|k| 0.5 * axes[k].length);
+    let center = [0, 1].map(|k| axes[k].start + half[k]);
     let levers = [0, 1].map(|k| catalogue.parts[k].iter().map(|p| p.lever).fold(0.0, f64::max));
     let mut pending: Vec<(Cell, Front)> = vec![(Cell { center, half }, vec![(0, 0)])];
     while let Some((cell, front)) = pending.pop() {
@@ -67,26 +67,11 @@ pub(crate) fn search(
                 return Err(SpaceError::Stopped);
             }
         }
-        let poses = [0, 1].map(|k| frame.moving[k].place(cell.center[k]));
         let motion = [levers[0] * cell.half[0], levers[1] * cell.half[1]];
-        if proofs.cross(&poses, cell.half, front.len()) {
-            work.blocked += 1;
+        let Some(front) = look(catalogue, proofs, cuts, &mut work, (&cell, front, motion[0] + motion[1]))
+        else {
             continue;
-        }
-        let around = Around::new(&frame.moving, &poses, &cell, frame.size);
-        let (front, fine) = refine(catalogue, front, &around, motion[0] + motion[1]);
-        if front.is_empty() {
-            continue;
-        }
-        if proofs.overlap(&poses, cell.half, front.len()) {
-            work.blocked += 1;
-            continue;
-        }
-        if fine && (front.len() <= FEW || motion[0] + motion[1] < SMALL * frame.size) {
-            work.leaves += 1;
-            cuts.cut(catalogue, &front, &cell);
-            continue;
-        }
+        };
         let axis = usize::from(motion[1] > motion[0]);
         for side in [1.0, -1.0] {
             let mut part = cell;
@@ -98,6 +83,38 @@ pub(crate) fn search(
     work.pairs = catalogue.curves.len();
     work.elements = catalogue.elements.len();
     Ok(work)
+}
+
+/// Looks at a box in which points move by at most `motion` and the nodes in `front` may touch. If it must be halved: what
+/// may touch in it.
+fn look(
+    catalogue: &mut Catalogue,
+    proofs: &mut Proofs,
+    cuts: &mut Cuts,
+    work: &mut Work,
+    (cell, front, motion): (&Cell, Front, f64),
+) -> Option<Front> {
+    let frame = catalogue.frame;
+    let poses = [0, 1].map(|k| frame.moving[k].place(cell.center[k]));
+    if proofs.cross(&poses, cell.half, front.len()) {
+        work.blocked += 1;
+        return None;
+    }
+    let around = Around::new(&frame.moving, &poses, cell, frame.size);
+    let (front, fine) = refine(catalogue, front, &around, motion);
+    if front.is_empty() {
+        return None;
+    }
+    if proofs.overlap(&poses, cell.half, front.len()) {
+        work.blocked += 1;
+        return None;
+    }
+    if fine && (front.len() <= FEW || motion < SMALL * frame.size) {
+        work.leaves += 1;
+        cuts.cut(catalogue, &front, cell);
+        return None;
+    }
+    Some(front)
 }
 
 /// Drops node pairs out of reach and opens those larger than the box's motion; all, when few are left. Says whether

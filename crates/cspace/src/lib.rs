@@ -3,6 +3,7 @@
 mod around;
 mod bodies;
 mod cells;
+mod check;
 mod component;
 mod cross;
 mod crossing;
@@ -24,6 +25,7 @@ mod pairs;
 mod pieces;
 mod progress;
 mod proofs;
+mod range;
 mod reduce;
 mod region;
 mod section;

@@ -2,25 +2,25 @@
 
 use crate::bodies::{Contact, contact};
 use crate::cells::{Work, search};
+use crate::check::{check, touching};
 use crate::cross::Cuts;
 use crate::domain::Axis;
 use crate::element::Frame;
 use crate::error::SpaceError;
 use crate::links::{Link, Parts, links, parts};
 use crate::locate::Locator;
-use crate::moving::{Kind, Moving};
 use crate::options::SpaceOptions;
 use crate::pairs::{Catalogue, Part};
 use crate::pieces::{Judge, pieces, weld};
 use crate::progress::Progress;
 use crate::proofs::Proofs;
+use crate::range::axis;
 use crate::reduce::{Reduced, reduce};
 use crate::region::Regions;
 use crate::slabs::{Atlas, Slabs, build};
 use crate::symmetry;
-use crate::witness::{EFFORT, Witnesses};
+use crate::witness::Witnesses;
 use mainspring_mechanism::System;
-use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// Free and blocked space of two bodies over two coordinates, made once for a system at given parameters.
@@ -127,111 +127,6 @@ impl ConfigurationSpace {
         let at = [0, 1].map(|k| self.atlas.frame.axes[k].wrap(q[k] * self.atlas.frame.moving[k].ratio));
         ([at[0].0, at[1].0], [at[0].1, at[1].1])
     }
-}
-
-fn check(
-    system: &System,
-    bodies: [usize; 2],
-    coordinates: [usize; 2],
-    options: &SpaceOptions,
-) -> Result<(), SpaceError> {
-    for (what, list, count) in
-        [("body", bodies, system.bodies.len()), ("coordinate", coordinates, system.coordinates.len())]
-    {
-        if let Some(&index) = list.iter().find(|&&i| i >= count) {
-            return Err(SpaceError::Absent { what, index });
-        }
-    }
-    if let Some(h) = options.held.iter().find(|h| h.0 >= system.coordinates.len()) {
-        return Err(SpaceError::Absent { what: "coordinate", index: h.0 });
-    }
-    if bodies[0] == bodies[1] {
-        return Err(SpaceError::Same { what: "body", name: system.bodies[bodies[0]].name.clone() });
-    }
-    if coordinates[0] == coordinates[1] {
-        let name = system.coordinates[coordinates[0]].name.clone();
-        return Err(SpaceError::Same { what: "coordinate", name });
-    }
-    for b in bodies {
-        let finite = |f: &mainspring_mechanism::Feature| {
-            f.center.x.is_finite() && f.center.y.is_finite() && f.radius.is_finite()
-        };
-        let held = options.held.iter().all(|h| h.1.is_finite());
-        if !held || !system.features[b].iter().all(finite) {
-            return Err(SpaceError::NotFinite { body: system.bodies[b].name.clone() });
-        }
-    }
-    Ok(())
-}
-
-/// Configurations at which it is asked whether the bodies touch for ever.
-const ANYWHERE: usize = 24;
-
-/// A configuration in contact where none should be: the bodies touch for ever, at a point on an axis or along a slide.
-fn touching(frame: &Frame, regions: &Regions, witnesses: &Witnesses) -> Option<[f64; 2]> {
-    let little = 1e-9 * frame.size;
-    // Multiples of the plastic number's inverse powers, which fall at no special place.
-    let at = |k: usize, axis: usize| {
-        let part = (0.37 + k as f64 * [0.754_877_666_246_692_7, 0.569_840_290_998_053_3][axis]).fract();
-        frame.axes[axis].start + part * frame.axes[axis].length
-    };
-    (0..ANYWHERE).map(|k| [at(k, 0), at(k, 1)]).find(|q| {
-        let poses = [0, 1].map(|k| frame.moving[k].place(q[k]));
-        !witnesses.blocked(&frame.moving, &poses, [0.0; 2], 2.0 * little, EFFORT)
-            && regions.barely_overlap(&poses, little)
-    })
-}
-
-/// The range of one coordinate in scaled positions.
-fn axis(
-    k: usize,
-    reduced: &Reduced,
-    parts: &[Vec<Part>; 2],
-    window: Option<(f64, f64)>,
-    repeats: u32,
-    name: &str,
-) -> Result<Axis, SpaceError> {
-    let moving = &reduced.moving[k];
-    let refuse = |reason| SpaceError::Window { coordinate: name.to_string(), reason };
-    let turns = moving.turns();
-    if let Some((low, high)) = window {
-        let (low, high) = (low * moving.ratio, high * moving.ratio);
-        if !(low.is_finite() && high.is_finite() && high - low > 1e-9) {
-            return Err(refuse("its end must lie above its start"));
-        }
-        if turns && high - low > TAU * (1.0 + 1e-12) {
-            return Err(refuse("wider than one turn; leave it out for the whole circle"));
-        }
-        return Ok(Axis { start: low, length: high - low, wraps: false, turns });
-    }
-    if turns {
-        let length = TAU / f64::from(repeats);
-        return Ok(Axis { start: -0.5 * length, length, wraps: true, turns });
-    }
-    let other = &reduced.moving[1 - k];
-    if moving.kind == Kind::Still || other.kind == Kind::Slide {
-        return Err(refuse("a window is needed: nothing else bounds the translation"));
-    }
-    let (low, high) = reach(moving, &parts[k], other, &parts[1 - k]);
-    Ok(Axis { start: low, length: high - low, wraps: false, turns })
-}
-
-/// Positions of a sliding body beyond which it cannot touch the other, and a little more.
-fn reach(moving: &Moving, own: &[Part], other: &Moving, others: &[Part]) -> (f64, f64) {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for p in own {
-        let along = moving.direction.dot(other.center - p.disc.0);
-        for q in others {
-            let reach = q.disc.0.norm() + q.disc.1 + p.disc.1;
-            low = low.min(along - reach);
-            high = high.max(along + reach);
-        }
-    }
-    if low > high {
-        return (-1.0, 1.0);
-    }
-    let more = 0.03 * (high - low);
-    (low - more, high + more)
 }
 
 /// Everything known before the search.
