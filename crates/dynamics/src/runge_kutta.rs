@@ -167,16 +167,10 @@ impl Polynomial {
 
     /// Bounds of |y|, |dy/dx| and |d²y/dx²| over the step: a polynomial lies within its Bernstein coefficients.
     pub fn bounds(&self) -> [f64; 3] {
-        let mut p = self.powers();
-        let mut bounds = [0.0; 3];
-        for (order, bound) in bounds.iter_mut().enumerate() {
-            let degree = POWERS - order;
-            *bound = bernstein_bound(&p[..=degree]);
-            for k in 1..=degree {
-                p[k - 1] = k as f64 * p[k];
-            }
-        }
-        bounds
+        let p = self.powers();
+        let slope: [f64; POWERS] = derivative(&p);
+        let bend: [f64; POWERS - 1] = derivative(&slope);
+        [bernstein_bound(&p), bernstein_bound(&slope), bernstein_bound(&bend)]
     }
 
     /// dy/dx.
@@ -191,23 +185,33 @@ impl Polynomial {
     }
 }
 
+/// Coefficients of the derivative's powers, one fewer.
+fn derivative<const M: usize>(p: &[f64]) -> [f64; M] {
+    std::array::from_fn(|k| (k + 1) as f64 * p[k + 1])
+}
+
 /// Greatest magnitude of the Bernstein coefficients `bᵢ = Σ_{k ≤ i} C(i, k) / C(n, k) pₖ` of a polynomial.
-fn bernstein_bound(p: &[f64]) -> f64 {
-    let n = p.len() - 1;
-    let mut b = [0.0; POWERS + 1];
-    b[..=n].copy_from_slice(p);
-    let mut binomial = 1.0;
-    for (k, b) in b.iter_mut().enumerate().take(n + 1).skip(1) {
-        binomial *= (n + 1 - k) as f64 / k as f64;
-        *b /= binomial;
-    }
+fn bernstein_bound<const M: usize>(p: &[f64; M]) -> f64 {
+    let shares = const { inverse_binomials::<M>() };
+    let mut b: [f64; M] = std::array::from_fn(|k| shares[k] * p[k]);
     // Sums with binomial weights, as in Pascal's triangle.
-    for round in 1..=n {
-        for i in (round..=n).rev() {
+    for round in 1..M {
+        for i in (round..M).rev() {
             b[i] += b[i - 1];
         }
     }
-    b[..=n].iter().fold(0.0, |most, x| x.abs().max(most))
+    b.iter().fold(0.0, |most, x| x.abs().max(most))
+}
+
+/// `1 / C(M − 1, k)`.
+const fn inverse_binomials<const M: usize>() -> [f64; M] {
+    let (mut found, mut binomial, mut k) = ([1.0; M], 1.0, 1);
+    while k < M {
+        binomial *= (M - k) as f64 / k as f64;
+        found[k] = 1.0 / binomial;
+        k += 1;
+    }
+    found
 }
 
 #[cfg(test)]
