@@ -131,3 +131,15 @@ def test_a_machine_at_rest_stays_there():
     assert run.status == "at_rest"
     assert run.trajectory.at(9.0).q == pytest.approx([-3.0])
     assert run.trajectory.at(9.0).v == [0.0]
+
+
+@pytest.mark.parametrize("friction", ["1e6", "1e9", "1e12", "1e15"])
+def test_rounding_has_no_minima(tmp_path, friction):
+    """A balance that creeps moves so slowly that its energy is rounding beside the wheel's first blow."""
+    text = ESCAPEMENT.with_suffix(".sup").read_text(encoding="utf-8")
+    assert "< BWHEEL : FRAME > 20 6 " in text
+    supplement = tmp_path / "creeping.sup"
+    supplement.write_text(text.replace("FRAME > 20 6 ", f"FRAME > 20 {friction} "), encoding="utf-8")
+    found = ms.predict(ms.load(ESCAPEMENT, supplement).compile())
+    assert found.status == "no_pattern"
+    assert found.simulated_seconds == 1e5

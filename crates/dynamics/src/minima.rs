@@ -34,6 +34,9 @@ const DEEPEST: u32 = 40;
 /// Most samples inside one stretch: where strong damping leaves a power of rounding alone, no division ends by itself.
 const MOST_SAMPLES: usize = 4000;
 
+/// Kinetic energy below this part of the greatest so far is rounding, and so are its minima.
+const FAINT: f64 = 1e-18;
+
 /// Follows the kinetic energy along a run.
 #[derive(Clone, Debug, Default)]
 pub struct MinimumFinder {
@@ -72,6 +75,12 @@ impl MinimumFinder {
         }
         let motion = Motion { system, paths, masses: chained_masses(system) };
         let (first, last) = (motion.sample(from), motion.sample(to));
+        if motion.is_faint(from, to, FAINT * self.top.max(first.energy)) {
+            if self.falling {
+                self.flat_since.get_or_insert(from);
+            }
+            return;
+        }
         let mut samples: Samples = smallvec::smallvec![first];
         motion.subdivide(first, last, 0, &mut samples);
         samples.push(last);
@@ -117,6 +126,9 @@ impl MinimumFinder {
     }
 
     fn record(&mut self, motion: &Motion, t: f64, at_impact: bool) {
+        if self.peak <= FAINT * self.top {
+            return;
+        }
         let state: Vec<_> = motion.paths.iter().map(|p| p.at(t)).collect();
         let (q, v) = (state.iter().map(|s| s.q).collect(), state.iter().map(|s| s.v).collect::<Vec<f64>>());
         let energy = motion.sample(t).energy;
@@ -144,6 +156,15 @@ impl Motion<'_> {
             power += p;
         }
         Sample { t, energy, power }
+    }
+
+    /// Does the energy stay below a bound? False where masses on chains have a share.
+    fn is_faint(&self, from: f64, to: f64, bound: f64) -> bool {
+        let most = |(c, path): (&Coordinate, &Path)| {
+            let speed = path.bounds(path.at(from), to - from).speed;
+            0.5 * c.inertia * speed * speed
+        };
+        self.masses.is_empty() && bound > 0.0 && self.own().map(most).sum::<f64>() <= bound
     }
 
     /// Coordinates with inertias of their own that are not driven.
