@@ -14,6 +14,10 @@ import mainspring as ms
 ROOT = Path(__file__).resolve().parent.parent
 ESCAPEMENT = ROOT / "examples" / "escapement" / "escapement.padl"
 
+# The shipped machines.
+MODELS = sorted(p for p in (ROOT / "examples").glob("*/*.*") if p.suffix in (".padl", ".toml"))
+MODELS = [p for p in MODELS if p.stem == p.parent.name]
+
 Run = Callable[..., subprocess.CompletedProcess[str]]
 
 

@@ -5,10 +5,8 @@ import re
 import pytest
 
 import mainspring as ms
-from conftest import ROOT
+from conftest import MODELS
 
-MODELS = sorted(p for p in (ROOT / "examples").glob("*/*.*") if p.suffix in (".padl", ".toml"))
-MODELS = [p for p in MODELS if p.stem == p.parent.name]
 ENDS = [
     pytest.param(model, p.name, value, id=f"{model.stem}-{p.name}-{value:g}")
     for model in MODELS

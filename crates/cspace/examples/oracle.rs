@@ -3,8 +3,8 @@
 //! ```text
 //! cargo run --release -p mainspring-cspace --example oracle [PAIRS] [CONFIGURATIONS EACH] [FIRST SEED]
 //! ```
-//! Three quarters of the configurations lie within 1e-3 of the reported curves, on both sides, where there are any. A configuration counts as wrong if
-//! the map and the library disagree there and everywhere within 1e-6 of the size.
+//! Three quarters of the configurations lie within 1e-3 of the reported curves, on both sides, where there are any. A
+//! configuration counts as wrong if the map and the library disagree there and everywhere within 1e-6 of the size.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

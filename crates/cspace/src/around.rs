@@ -14,32 +14,43 @@ use crate::tree::Node;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
 
-/// A box of configurations, as features see it.
+/// A box of configurations: how the bodies lie against each other at its centre, and how far they move within it.
 pub(crate) struct Around<'a> {
     moving: &'a [Moving; 2],
     /// second_from_first and first_from_second at the centre.
-    rel: [Pose; 2],
+    pub rel: [Pose; 2],
     half: [f64; 2],
     /// How far each body turns (radians).
     turn: [f64; 2],
-    little: f64,
+    /// What counts as rounding (length).
+    pub little: f64,
 }
 
 impl<'a> Around<'a> {
-    /// About a cell with these poses at its centre, for a machine of this size.
-    pub fn new(moving: &'a [Moving; 2], poses: &[Pose; 2], cell: &Cell, size: f64) -> Self {
+    /// For bodies that move like this in a machine of this size.
+    pub fn new(moving: &'a [Moving; 2], cell: &Cell, size: f64) -> Self {
+        let poses = [0, 1].map(|k| moving[k].place(cell.center[k]));
         let rel = [relative(&poses[0], &poses[1]), relative(&poses[1], &poses[0])];
         let turn = [0, 1].map(|k| if moving[k].turns() { cell.half[k] } else { 0.0 });
         Around { moving, rel, half: cell.half, turn, little: 1e-9 * size }
     }
 
+    /// How far points of both bodies move against each other that lie at these distances from their origins, give or take
+    /// the second.
+    pub fn motion(&self, arms: [(f64, f64); 2]) -> f64 {
+        let one = |k: usize| self.half[k] * self.moving[k].lever_of(arms[k].0, arms[k].1);
+        one(0) + one(1)
+    }
+
+    /// From the second node's centre to the first's, in the second body's coordinates.
+    pub fn apart(&self, m: &Node, n: &Node) -> Vec2 {
+        self.rel[0].apply(m.center) - n.center
+    }
+
     /// May features under two tree nodes touch?
     pub fn near(&self, m: &Node, n: &Node) -> bool {
-        let [m1, m2] = self.moving;
-        let motion =
-            self.half[0] * m1.lever_of(m.arm, m.radius) + self.half[1] * m2.lever_of(n.arm, n.radius);
-        let reach = m.radius + n.radius + motion;
-        let apart = self.rel[0].apply(m.center) - n.center;
+        let reach = m.radius + n.radius + self.motion([(m.arm, m.radius), (n.arm, n.radius)]);
+        let apart = self.apart(m, n);
         apart.dot(apart) <= reach * reach
     }
 
@@ -54,7 +65,7 @@ impl<'a> Around<'a> {
     }
 
     /// How far features with these levers move against each other, the first of body `k`.
-    fn motion(&self, first: f64, second: f64, k: usize) -> f64 {
+    fn levered(&self, first: f64, second: f64, k: usize) -> f64 {
         first * self.half[k] + second * self.half[1 - k]
     }
 
@@ -70,8 +81,8 @@ impl<'a> Around<'a> {
         if *hollow {
             return false;
         }
-        let (e, turn) = (self.motion(arc.lever, edge.lever, k), self.turn[0] + self.turn[1]);
-        let centers = self.motion(arc.center_lever, edge.lever, k) + self.turn[1 - k] * radius;
+        let (e, turn) = (self.levered(arc.lever, edge.lever, k), self.turn[0] + self.turn[1]);
+        let centers = self.levered(arc.center_lever, edge.lever, k) + self.turn[1 - k] * radius;
         let across = centers.min(e + 0.5 * radius * turn * turn) + self.little;
         let beyond = centers.min(e + radius * turn) + self.little;
         let offset = self.rel[k].apply(*center) - *from;
@@ -93,8 +104,8 @@ impl<'a> Around<'a> {
         };
         let inside = *ha || *hb;
         let rho = if inside { (r - s).abs() } else { r + s };
-        let (e, theta) = (self.motion(a.lever, b.lever, 0), self.turn[0] + self.turn[1]);
-        let centers = self.motion(a.center_lever, b.center_lever, 0);
+        let (e, theta) = (self.levered(a.lever, b.lever, 0), self.turn[0] + self.turn[1]);
+        let centers = self.levered(a.center_lever, b.center_lever, 0);
         let bend = (r * s * theta * theta / rho.max(f64::MIN_POSITIVE)).min((r * s).sqrt() * theta);
         let d: Vec2 = self.rel[0].apply(*p) - *q;
         let length = d.norm();

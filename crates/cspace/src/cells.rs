@@ -11,6 +11,7 @@ use crate::error::SpaceError;
 use crate::pairs::{Catalogue, Cell};
 use crate::progress::Progress;
 use crate::proofs::Proofs;
+use crate::tree::Discs;
 
 /// Feature pairs at which a box is no longer halved.
 const FEW: usize = 30;
@@ -53,6 +54,7 @@ pub(crate) fn search(
     let half = [0, 1].map(|k| 0.5 * axes[k].length);
     let center = [0, 1].map(|k| axes[k].start + half[k]);
     let levers = [0, 1].map(|k| catalogue.parts[k].iter().map(|p| p.lever).fold(0.0, f64::max));
+    let mut done = 0.0;
     let mut pending: Vec<(Cell, Front)> = vec![(Cell { center, half }, vec![(0, 0)])];
     while let Some((cell, front)) = pending.pop() {
         work.cells += 1;
@@ -60,9 +62,7 @@ pub(crate) fn search(
             return Err(SpaceError::TooComplex { budget });
         }
         if work.cells % TELL == 0 {
-            // What is pending are halves of halves, one of each size or two.
-            let left: f64 = pending.iter().chain([&(cell, vec![])]).map(|(c, _)| c.half[0] * c.half[1]).sum();
-            progress.tell(1.0 - left / (half[0] * half[1]));
+            progress.tell(done);
             if progress.stopped() {
                 return Err(SpaceError::Stopped);
             }
@@ -70,6 +70,7 @@ pub(crate) fn search(
         let motion = [levers[0] * cell.half[0], levers[1] * cell.half[1]];
         let Some(front) = look(catalogue, proofs, cuts, &mut work, (&cell, front, motion[0] + motion[1]))
         else {
+            done += cell.half[0] * cell.half[1] / (half[0] * half[1]);
             continue;
         };
         let axis = usize::from(motion[1] > motion[0]);
@@ -95,17 +96,16 @@ fn look(
     (cell, front, motion): (&Cell, Front, f64),
 ) -> Option<Front> {
     let frame = catalogue.frame;
-    let poses = [0, 1].map(|k| frame.moving[k].place(cell.center[k]));
-    if proofs.cross(&poses, cell.half, front.len()) {
+    let around = Around::new(&frame.moving, cell, frame.size);
+    if proofs.cross(&around, front.len()) {
         work.blocked += 1;
         return None;
     }
-    let around = Around::new(&frame.moving, &poses, cell, frame.size);
     let (front, fine) = refine(catalogue, front, &around, motion);
     if front.is_empty() {
         return None;
     }
-    if proofs.overlap(&poses, cell.half, front.len()) {
+    if proofs.overlap(&around, front.len()) {
         work.blocked += 1;
         return None;
     }
@@ -136,10 +136,8 @@ fn refine(catalogue: &Catalogue, front: Front, around: &Around, motion: f64) -> 
                 }
             } else if !all && m.radius + n.radius <= motion {
                 coarse.push((i, j));
-            } else if !m.leaf && (n.leaf || m.radius >= n.radius) {
-                open.extend(ta.children(i).map(|k| (k, j)));
             } else {
-                open.extend(tb.children(j).map(|k| (i, k)));
+                open.extend(Discs::halved([ta, tb], (i, j)));
             }
         }
         if kept.len() + coarse.len() > 4 * FEW {

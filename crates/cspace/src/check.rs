@@ -1,13 +1,16 @@
 //! What is refused before a map is begun: bodies and coordinates that are none, numbers that are not finite, bodies that touch
 //! for ever.
 
+use crate::around::Around;
 use crate::element::Frame;
 use crate::error::SpaceError;
 use crate::options::SpaceOptions;
+use crate::pairs::Cell;
 use crate::region::Regions;
 use crate::witness::{EFFORT, Witnesses};
 use mainspring_mechanism::System;
 
+/// Refuses bodies and coordinates that are none or the same, and numbers that are not finite.
 pub(crate) fn check(
     system: &System,
     bodies: [usize; 2],
@@ -55,8 +58,8 @@ pub(crate) fn touching(frame: &Frame, regions: &Regions, witnesses: &Witnesses) 
         frame.axes[axis].start + part * frame.axes[axis].length
     };
     (0..ANYWHERE).map(|k| [at(k, 0), at(k, 1)]).find(|q| {
+        let here = Around::new(&frame.moving, &Cell { center: *q, half: [0.0; 2] }, frame.size);
         let poses = [0, 1].map(|k| frame.moving[k].place(q[k]));
-        !witnesses.blocked(&frame.moving, &poses, [0.0; 2], 2.0 * little, EFFORT)
-            && regions.barely_overlap(&poses, little)
+        !witnesses.blocked(&here, 2.0 * little, EFFORT) && regions.barely_overlap(&poses, little)
     })
 }

@@ -4,11 +4,10 @@
 //! parity cannot change otherwise. Each then passes from one side of the other to its other side, so material of both
 //! bodies overlaps. It is enough that at the box's centre every end is farther from the other span than both move.
 
-use crate::moving::Moving;
-use crate::reduce::relative;
+use crate::around::Around;
 use crate::region::{Ignored, Regions};
 use crate::section::Section;
-use mainspring_mechanism::Pose;
+use crate::tree::Discs;
 
 /// Pairs of tree nodes looked at for one box at most.
 const EFFORT: usize = 1500;
@@ -18,99 +17,71 @@ const REMEMBERED: usize = 8;
 /// Leaves whose spans crossed throughout boxes lately, by pair of sections: likely to do so in the next one too.
 #[derive(Debug, Default)]
 pub(crate) struct Crossed {
-    leaves: [Option<(usize, u32, u32)>; REMEMBERED],
+    leaves: [Option<(usize, (u32, u32))>; REMEMBERED],
     next: usize,
 }
 
-/// Is every configuration within half widths `half` of these poses surely blocked? False, after looking at `effort` pairs
-/// of tree nodes or all, means nothing.
-pub(crate) fn cross_throughout(
-    regions: &Regions,
-    moving: &[Moving; 2],
-    poses: &[Pose; 2],
-    half: [f64; 2],
-    crossed: &mut Crossed,
-    effort: usize,
-) -> bool {
-    let (rel, rounding) = (relative(&poses[0], &poses[1]), 1e3 * regions.rounding);
-    let two = |f: usize| {
-        let (i, j, _) = &regions.facing[f];
-        Two { a: &regions.sections[0][*i], b: &regions.sections[1][*j], moving, rel, half, rounding }
-    };
-    if crossed.leaves.iter().flatten().any(|&(f, i, j)| two(f).cross(i, j)) {
-        return true;
-    }
-    for (f, (.., ignored)) in regions.facing.iter().enumerate() {
-        if let Some((i, j)) = two(f).find(ignored, effort) {
-            crossed.leaves[crossed.next % REMEMBERED] = Some((f, i, j));
-            crossed.next += 1;
+impl Crossed {
+    /// Is every configuration of the box surely blocked? False, after looking at `effort` pairs of tree nodes or all, means
+    /// nothing.
+    pub fn throughout(&mut self, regions: &Regions, around: &Around, effort: usize) -> bool {
+        let facing = |f: usize| {
+            let (i, j, ignored) = &regions.facing[f];
+            ([&regions.sections[0][*i], &regions.sections[1][*j]], ignored)
+        };
+        if self.leaves.iter().flatten().any(|&(f, leaves)| cross(facing(f).0, around, leaves)) {
             return true;
         }
-    }
-    false
-}
-
-/// Two sections about a configuration.
-struct Two<'a> {
-    a: &'a Section,
-    b: &'a Section,
-    moving: &'a [Moving; 2],
-    /// b_from_a
-    rel: Pose,
-    half: [f64; 2],
-    rounding: f64,
-}
-
-impl Two<'_> {
-    /// Leaves whose spans cross throughout, if they are found soon.
-    fn find(&self, ignored: &Ignored, effort: usize) -> Option<(u32, u32)> {
-        let (ta, tb) = (&self.a.tree, &self.b.tree);
-        let mut pending =
-            if ta.nodes.is_empty() || tb.nodes.is_empty() { vec![] } else { vec![(0u32, 0u32)] };
-        for _ in 0..effort.min(EFFORT) {
-            let (i, j) = pending.pop()?;
-            let (m, n) = (&ta.nodes[i as usize], &tb.nodes[j as usize]);
-            if !self.may_cross(i, j) {
-                continue;
-            }
-            if m.leaf && n.leaf {
-                if !ignored.contains(&(m.link, n.link)) && self.cross(i, j) {
-                    return Some((i, j));
-                }
-            } else if !m.leaf && (n.leaf || m.radius >= n.radius) {
-                pending.extend(ta.children(i).map(|k| (k, j)));
-            } else {
-                pending.extend(tb.children(j).map(|k| (i, k)));
+        for f in 0..regions.facing.len() {
+            let (sections, ignored) = facing(f);
+            if let Some(leaves) = find(sections, ignored, around, effort.min(EFFORT)) {
+                self.leaves[self.next % REMEMBERED] = Some((f, leaves));
+                self.next += 1;
+                return true;
             }
         }
-        None
+        false
     }
+}
 
-    /// May spans under two nodes cross, and are they long enough to do so throughout?
-    fn may_cross(&self, i: u32, j: u32) -> bool {
-        let (m, n) = (&self.a.tree.nodes[i as usize], &self.b.tree.nodes[j as usize]);
-        let reach = m.radius + n.radius;
-        let shorter = self.a.greatest[i as usize].min(self.b.greatest[j as usize]);
-        let apart = self.rel.apply(m.center) - n.center;
-        self.motion([-m.radius, -n.radius], [m.arm, n.arm]) < 2.0 * shorter
-            && apart.dot(apart) <= reach * reach
-    }
-
-    /// How far points at these distances from the origins, give or take a radius, move against each other.
-    fn motion(&self, radii: [f64; 2], arms: [f64; 2]) -> f64 {
-        (0..2).map(|k| self.half[k] * self.moving[k].lever_of(arms[k], radii[k])).sum()
-    }
-
-    fn cross(&self, i: u32, j: u32) -> bool {
-        let (m, n) = (&self.a.tree.nodes[i as usize], &self.b.tree.nodes[j as usize]);
-        let (s, t) = (m.link as usize, n.link as usize);
-        if self.a.features[s] == usize::MAX || self.b.features[t] == usize::MAX {
-            return false;
+/// Leaves whose spans cross throughout, if they are found soon.
+fn find(sections: [&Section; 2], ignored: &Ignored, around: &Around, effort: usize) -> Option<(u32, u32)> {
+    let trees = sections.map(|s| &s.tree);
+    let mut pending = if trees.iter().any(|t| t.nodes.is_empty()) { vec![] } else { vec![(0, 0)] };
+    for _ in 0..effort {
+        let (i, j) = pending.pop()?;
+        if !may_cross(sections, around, (i, j)) {
+            continue;
         }
-        let (first, second) = (self.a.spans[s].placed(&self.rel), self.b.spans[t]);
-        let motion = self.motion([m.radius, n.radius], [m.arm, n.arm]) + self.rounding;
-        second.ends().iter().all(|p| first.distance_to_point(*p) > motion)
-            && first.ends().iter().all(|p| second.distance_to_point(*p) > motion)
-            && first.crossings(&second) % 2 == 1
+        let (m, n) = (&trees[0].nodes[i as usize], &trees[1].nodes[j as usize]);
+        if !(m.leaf && n.leaf) {
+            pending.extend(Discs::halved(trees, (i, j)));
+        } else if !ignored.contains(&(m.link, n.link)) && cross(sections, around, (i, j)) {
+            return Some((i, j));
+        }
     }
+    None
+}
+
+/// May spans under two nodes cross, and are they long enough to do so throughout?
+fn may_cross([a, b]: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bool {
+    let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
+    let (reach, apart) = (m.radius + n.radius, around.apart(m, n));
+    let shorter = a.greatest[i as usize].min(b.greatest[j as usize]);
+    around.motion([(m.arm, -m.radius), (n.arm, -n.radius)]) < 2.0 * shorter
+        && apart.dot(apart) <= reach * reach
+}
+
+/// Do the spans of two leaves cross throughout the box?
+fn cross([a, b]: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bool {
+    let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
+    let (s, t) = (m.link as usize, n.link as usize);
+    if a.features[s] == usize::MAX || b.features[t] == usize::MAX {
+        return false;
+    }
+    let (first, second) = (a.spans[s].placed(&around.rel[0]), b.spans[t]);
+    let motion = around.motion([(m.arm, m.radius), (n.arm, n.radius)]) + around.little;
+    second.ends().iter().all(|p| first.distance_to_point(*p) > motion)
+        && first.ends().iter().all(|p| second.distance_to_point(*p) > motion)
+        && first.crossings(&second) % 2 == 1
 }

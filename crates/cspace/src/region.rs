@@ -8,6 +8,7 @@ use crate::moving::Moving;
 use crate::reduce::relative;
 use crate::section::Section;
 use crate::span::Span;
+use crate::tree::Discs;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
 
@@ -121,12 +122,7 @@ fn search(
             reach = visit(a.spans[s].placed(rel).distance(&b.spans[t]), (s, t));
             continue;
         }
-        let first = !m.leaf && (n.leaf || m.radius >= n.radius);
-        let mut next = if first {
-            a.tree.children(i).map(|k| (apart(k, j), k, j))
-        } else {
-            b.tree.children(j).map(|k| (apart(i, k), i, k))
-        };
+        let mut next = Discs::halved([&a.tree, &b.tree], (i, j)).map(|(k, l)| (apart(k, l), k, l));
         // The nearer one is looked at first.
         if next[0].0 < next[1].0 {
             next.swap(0, 1);

@@ -160,7 +160,7 @@ impl Made<'_> {
         let mut cuts = Cuts::default();
         let mut work = Work::default();
         if self.contact.exists() {
-            let mut proofs = Proofs::new(&self.frame.moving, &self.regions, &witnesses);
+            let mut proofs = Proofs::new(&self.regions, &witnesses);
             work = search(&mut catalogue, &mut proofs, &mut cuts, (budget, progress))?;
         }
         let judge = Judge { frame: &self.frame, regions: &self.regions, levers };

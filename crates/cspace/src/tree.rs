@@ -62,6 +62,16 @@ impl Discs {
         [at + 1, self.nodes[at as usize].link]
     }
 
+    /// The pairs of nodes that a pair, not both leaves, opens into: the larger node of the two is halved.
+    pub fn halved(trees: [&Self; 2], (i, j): (u32, u32)) -> [(u32, u32); 2] {
+        let (m, n) = (&trees[0].nodes[i as usize], &trees[1].nodes[j as usize]);
+        if !m.leaf && (n.leaf || m.radius >= n.radius) {
+            trees[0].children(i).map(|k| (k, j))
+        } else {
+            trees[1].children(j).map(|k| (i, k))
+        }
+    }
+
     /// Greatest value of the items under each node.
     pub fn greatest(&self, value: impl Fn(u32) -> f64) -> Vec<f64> {
         let mut found = vec![0.0; self.nodes.len()];

@@ -1,13 +1,11 @@
 //! Discs inside bodies: two of them that overlap by more than a cell's motion prove the whole cell blocked.
 
-use crate::moving::Moving;
-use crate::reduce::relative;
+use crate::around::Around;
 use crate::region::Regions;
 use crate::section::Section;
 use crate::span::Span;
 use crate::tree::Discs;
 use mainspring_geometry::Vec2;
-use mainspring_mechanism::Pose;
 use std::f64::consts::TAU;
 
 /// Discs sampled per section, besides one for each span.
@@ -108,73 +106,44 @@ impl Witnesses {
         (0..2).find(|&k| self.inside[k].iter().any(|i| i.thin))
     }
 
-    /// Is every configuration within half widths `half` of these poses surely blocked, by more than `depth` (a length)?
-    /// A disc's centre moves by at most its lever times the half width. False, after looking at `effort` pairs of tree nodes
-    /// or all, means nothing.
-    pub fn blocked(
-        &self,
-        moving: &[Moving; 2],
-        poses: &[Pose; 2],
-        half: [f64; 2],
-        depth: f64,
-        effort: usize,
-    ) -> bool {
-        let rel = relative(&poses[0], &poses[1]);
-        self.facing.iter().any(|&(i, j)| {
-            Two { a: &self.inside[0][i], b: &self.inside[1][j], moving, rel, half, depth }.overlap(effort)
-        })
+    /// Is every configuration of the box surely blocked, by more than `depth` (a length)? A disc's centre moves by at most its
+    /// lever times the half width. False, after looking at `effort` pairs of tree nodes or all, means nothing.
+    pub fn blocked(&self, around: &Around, depth: f64, effort: usize) -> bool {
+        self.facing
+            .iter()
+            .any(|&(i, j)| overlap([&self.inside[0][i], &self.inside[1][j]], around, depth, effort))
     }
 }
 
-/// Two sections about a configuration.
-struct Two<'a> {
-    a: &'a Inside,
-    b: &'a Inside,
-    moving: &'a [Moving; 2],
-    /// b_from_a
-    rel: Pose,
-    half: [f64; 2],
-    depth: f64,
+/// Is there a pair of discs that overlap throughout the box? Most promising nodes first.
+fn overlap(inside: [&Inside; 2], around: &Around, depth: f64, effort: usize) -> bool {
+    if inside.iter().any(|s| s.discs.is_empty()) {
+        return false;
+    }
+    let trees = inside.map(|s| &s.tree);
+    let least = |nodes: (u32, u32)| least_apart(inside, around, nodes) + depth;
+    let mut pending = vec![(least((0, 0)), (0, 0))];
+    for _ in 0..effort {
+        let Some((apart, (i, j))) = pending.pop() else { return false };
+        if apart >= 0.0 {
+            continue;
+        }
+        if trees[0].nodes[i as usize].leaf && trees[1].nodes[j as usize].leaf {
+            return true;
+        }
+        let mut next = Discs::halved(trees, (i, j)).map(|pair| (least(pair), pair));
+        if next[0].0 < next[1].0 {
+            next.swap(0, 1);
+        }
+        pending.extend(next);
+    }
+    false
 }
 
-impl Two<'_> {
-    /// Is there a pair of discs that overlap throughout? Most promising nodes first.
-    fn overlap(&self, effort: usize) -> bool {
-        if self.a.discs.is_empty() || self.b.discs.is_empty() {
-            return false;
-        }
-        let mut pending = vec![(self.least(0, 0), 0u32, 0u32)];
-        for _ in 0..effort {
-            let Some((least, i, j)) = pending.pop() else { return false };
-            if least >= 0.0 {
-                continue;
-            }
-            let (m, n) = (&self.a.tree.nodes[i as usize], &self.b.tree.nodes[j as usize]);
-            if m.leaf && n.leaf {
-                return true;
-            }
-            let first = !m.leaf && (n.leaf || m.radius >= n.radius);
-            let mut next = if first {
-                self.a.tree.children(i).map(|k| (self.least(k, j), k, j))
-            } else {
-                self.b.tree.children(j).map(|k| (self.least(i, k), i, k))
-            };
-            if next[0].0 < next[1].0 {
-                next.swap(0, 1);
-            }
-            pending.extend(next);
-        }
-        false
-    }
-
-    /// The least that discs under two nodes can be apart, in the worst configuration of the cell.
-    fn least(&self, i: u32, j: u32) -> f64 {
-        let (m, n) = (&self.a.tree.nodes[i as usize], &self.b.tree.nodes[j as usize]);
-        let [m1, m2] = self.moving;
-        let apart = (self.rel.apply(m.center) - n.center).norm();
-        let motion =
-            self.half[0] * m1.lever_of(m.arm, -m.radius) + self.half[1] * m2.lever_of(n.arm, -n.radius);
-        let radii = m.radius + n.radius + self.a.greatest[i as usize] + self.b.greatest[j as usize];
-        apart - radii + motion + self.depth
-    }
+/// The least that discs under two nodes can be apart, in the worst configuration of the box.
+fn least_apart([a, b]: [&Inside; 2], around: &Around, (i, j): (u32, u32)) -> f64 {
+    let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
+    let motion = around.motion([(m.arm, -m.radius), (n.arm, -n.radius)]);
+    let radii = m.radius + n.radius + a.greatest[i as usize] + b.greatest[j as usize];
+    around.apart(m, n).norm() - radii + motion
 }

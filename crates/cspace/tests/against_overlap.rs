@@ -1,5 +1,5 @@
-//! The map against the overlap tests of a library of polygons: random parts of every kind, half of the configurations close to
-//! the curves. The full run is `cargo run --release -p mainspring-cspace --example oracle`.
+//! The map against the overlap tests of a library of polygons: random parts of every kind, most of the configurations close
+//! to the curves. The full run is `cargo run --release -p mainspring-cspace --example oracle`.
 
 mod common;
 

@@ -75,7 +75,8 @@ impl MinimumFinder {
         }
         let motion = Motion { system, paths, masses: chained_masses(system) };
         let (first, last) = (motion.sample(from), motion.sample(to));
-        if motion.is_faint(from, to, FAINT * self.top.max(first.energy)) {
+        let faint = FAINT * self.top;
+        if first.energy < faint && motion.is_faint(from, to, faint) {
             if self.falling {
                 self.flat_since.get_or_insert(from);
             }
@@ -164,7 +165,7 @@ impl Motion<'_> {
             let speed = path.bounds(path.at(from), to - from).speed;
             0.5 * c.inertia * speed * speed
         };
-        self.masses.is_empty() && bound > 0.0 && self.own().map(most).sum::<f64>() <= bound
+        self.masses.is_empty() && self.own().map(most).sum::<f64>() <= bound
     }
 
     /// Coordinates with inertias of their own that are not driven.
