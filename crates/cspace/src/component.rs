@@ -19,7 +19,7 @@ pub struct Component {
     pub copies: u32,
     /// Area in joint coordinates.
     pub area: f64,
-    /// A configuration inside, as far from the curves as the partition shows.
+    /// A configuration inside, within the domain, as far from the curves as the partition shows.
     pub inside: [f64; 2],
 }
 
@@ -75,7 +75,8 @@ impl ConfigurationSpace {
             let width = (b - a) * self.levers[0] * ((high - low) * self.levers[1]);
             if width > widest[id] {
                 widest[id] = width;
-                found[id].inside = [middle / ratios[0], 0.5 * (low + high) / ratios[1]];
+                let at = [middle, 0.5 * (low + high)];
+                found[id].inside = [0, 1].map(|k| self.atlas.frame.axes[k].wrap(at[k]).0 / ratios[k]);
             }
         }
     }
