@@ -52,9 +52,9 @@ impl ConfigurationSpace {
         self.cells.windings.iter().map(|w| w.cosets(n, m) as usize).sum()
     }
 
-    /// The component of a configuration; none if it is blocked or outside.
+    /// The component of a configuration, free or in contact; none if it is blocked or outside.
     pub fn component_of(&self, q: [f64; 2]) -> Option<u32> {
-        let cell = self.cell_at(self.scaled(q).0)?;
+        let (cell, ..) = self.free_place(q)?;
         let id = self.cells.of[cell];
         (id != NONE).then_some(id)
     }

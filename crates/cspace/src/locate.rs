@@ -10,6 +10,8 @@ use crate::space::ConfigurationSpace;
 const SAMPLES: [f64; 7] = [0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98];
 /// The bound on the deviation, over the greatest sampled.
 const SAFETY: f64 = 2.0;
+/// How far, in periods, a configuration in contact may lie on the wrong side of its curve by rounding.
+const TOUCHES: [f64; 2] = [1e-13, 1e-10];
 
 /// A piece within a slab: `v = at + slope·u ± band`.
 #[derive(Clone, Copy, Debug)]
@@ -114,6 +116,20 @@ impl ConfigurationSpace {
         }
         let (s, k) = self.locator.cell(&self.atlas, &self.slabs, at[0], at[1]);
         Some(self.slabs.cells(s).0 + k)
+    }
+
+    /// The cell of a free configuration, its scaled position there and the periods taken off. One in contact counts as
+    /// free, whichever side of its curve rounding left it on: it is moved off by as much. None if it is blocked or outside.
+    pub(crate) fn free_place(&self, q: [f64; 2]) -> Option<(usize, [f64; 2], [i64; 2])> {
+        let held = |(at, periods)| self.cell_at(at).filter(|&c| self.slabs.free[c]).map(|c| (c, at, periods));
+        let frame = &self.atlas.frame;
+        let beside = |k: usize, by: f64| {
+            let mut moved = q;
+            moved[k] += by * frame.axes[k].length / frame.moving[k].ratio;
+            held(self.scaled(moved))
+        };
+        let moves = TOUCHES.iter().flat_map(|by| [(1, *by), (1, -by), (0, *by), (0, -by)]);
+        held(self.scaled(q)).or_else(|| moves.into_iter().find_map(|(k, by)| beside(k, by)))
     }
 
     /// Is a configuration free? Any turns of a turning coordinate; false outside a window and for NaN. A configuration

@@ -53,8 +53,8 @@ struct Walker<'s> {
 }
 
 impl ConfigurationSpace {
-    /// Pushes the coordinate `pushed` (0 or 1) of a free configuration from where it is to `goal`. None if the start is
-    /// blocked or outside.
+    /// Pushes the coordinate `pushed` (0 or 1) of a free configuration from where it is to `goal`; it may be in contact.
+    /// None if the start is blocked or outside.
     ///
     /// # Errors
     /// Those of `transposed` (for the second coordinate).
@@ -71,9 +71,8 @@ impl ConfigurationSpace {
     }
 
     fn push(&self, from: [f64; 2], goal: f64) -> Option<Walk> {
-        let (at, periods) = self.scaled(from);
-        let cell = self.cell_at(at)?;
-        if !self.slabs.free[cell] || !goal.is_finite() {
+        let (cell, at, periods) = self.free_place(from)?;
+        if !goal.is_finite() {
             return None;
         }
         let below = !self.goes_round(cell) && at[1] < self.extent(cell, at[0]).0;

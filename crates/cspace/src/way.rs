@@ -18,8 +18,8 @@ impl ConfigurationSpace {
     /// A way with the fewest cells from `from` to `to`, where the end may be reached in any period. None if one is
     /// blocked or they lie in different components.
     pub fn way(&self, from: [f64; 2], to: [f64; 2]) -> Option<Way> {
-        let ((a, periods), (b, beyond)) = (self.scaled(from), self.scaled(to));
-        let (start, goal) = (self.cell_at(a)?, self.cell_at(b)?);
+        let (beginning, end) = (self.free_place(from)?, self.free_place(to)?);
+        let (start, goal) = (beginning.0, end.0);
         if self.cells.of[start] == NONE || self.cells.of[start] != self.cells.of[goal] {
             return None;
         }
@@ -33,14 +33,15 @@ impl ConfigurationSpace {
             cell = (if forward { link.from } else { link.to }) as usize;
         }
         passed.reverse();
-        Some(self.unroll((from, to), (a, periods), (b, beyond), (start, goal), &passed))
+        Some(self.unroll(from, beginning, end, &passed))
     }
 
     /// Can the configuration `to`, in just that turn, be reached from `from`?
     pub fn reaches(&self, from: [f64; 2], to: [f64; 2]) -> bool {
-        let Some(way) = self.way(from, to) else { return false };
-        let windings =
-            &self.cells.windings[self.cells.of[self.cell_at(self.scaled(from).0).unwrap_or(0)] as usize];
+        let (Some(way), Some(component)) = (self.way(from, to), self.component_of(from)) else {
+            return false;
+        };
+        let windings = &self.cells.windings[component as usize];
         let mut with = windings.clone();
         with.add(way.winding);
         with == *windings
@@ -72,10 +73,9 @@ impl ConfigurationSpace {
     /// Counts on along the openings passed.
     fn unroll(
         &self,
-        (from, to): ([f64; 2], [f64; 2]),
-        (a, periods): ([f64; 2], [i64; 2]),
-        (b, beyond): ([f64; 2], [i64; 2]),
-        (start, goal): (usize, usize),
+        from: [f64; 2],
+        (start, a, periods): (usize, [f64; 2], [i64; 2]),
+        (goal, b, beyond): (usize, [f64; 2], [i64; 2]),
         passed: &[(u32, bool)],
     ) -> Way {
         let (axes, m) = (&self.atlas.frame.axes, &self.atlas.frame.moving);
@@ -98,7 +98,6 @@ impl ConfigurationSpace {
         }
         let end = [offset[0], offset[1] + own(goal, b)];
         points.push([0, 1].map(|k| (b[k] + end[k] as f64 * axes[k].length) / m[k].ratio));
-        let _ = to;
         Way { points, winding: [end[0] - beyond[0], end[1] - beyond[1]] }
     }
 }

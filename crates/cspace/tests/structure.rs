@@ -212,6 +212,28 @@ fn a_walk_through_meshing_teeth_keeps_the_ratio() {
 }
 
 #[test]
+fn a_walk_goes_on_from_where_another_ended_in_contact() {
+    let map = space(&gears(6, 9));
+    let inside = map.components()[0].inside;
+    for k in 1..400 {
+        let pushed = inside[0] + 3.0 + 0.01 * f64::from(k);
+        let walk = map.walk(inside, 0, pushed).unwrap().unwrap();
+        let contact = walk.last();
+        // Whichever way rounding took it.
+        for off in [-1e-13, -1e-15, 0.0, 1e-15, 1e-13] {
+            let from = [contact[0], contact[1] + off];
+            let on = map.walk(from, 0, pushed + 0.1).unwrap().unwrap();
+            assert_eq!(on.end, mainspring_cspace::End::Arrived);
+            assert!(map.reaches(inside, from) && map.component_of(from) == Some(0));
+        }
+    }
+    let channel = map.walk(inside, 0, inside[0] + 3.0).unwrap().unwrap().last();
+    // A thousandth of a turn into the flank is no rounding.
+    let blocked = [-1e-3, 1e-3].map(|by| map.walk([channel[0], channel[1] + by], 0, 9.0).unwrap());
+    assert!(blocked.iter().any(Option::is_none));
+}
+
+#[test]
 fn parts_that_never_meet_and_parts_that_always_overlap() {
     let far = space(&bars(1.0, 1.0, 3.0));
     assert_eq!(shape(&far), vec![(vec![[1, 0], [0, 1]], 0)]);
