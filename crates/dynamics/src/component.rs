@@ -7,6 +7,7 @@
 //! ones have their prescribed acceleration.
 
 use crate::constraints::{AtState, Constraints};
+use crate::few::Few;
 use crate::flight::Bounds;
 use crate::inertia::Inertia;
 use crate::linear::Small;
@@ -22,6 +23,9 @@ const SLOWEST: f64 = 1e-6;
 
 /// How far contacts may come off zero half way along a step, against the tolerance: all along it less than the tolerance.
 const BETWEEN: f64 = 0.25;
+
+/// Rounds of projection onto the contacts.
+pub const PROJECTIONS: usize = 3;
 
 /// Roundings of positions that may meet in a gap.
 const GRAIN: f64 = 16.0;
@@ -39,6 +43,8 @@ pub struct Component {
     /// For each contact one on the other side of what it touches, closed as well: the pair holds both ways.
     pub backs: Vec<Option<Candidate>>,
     pub constraints: Constraints,
+    /// The same where it is cheaper.
+    few: Option<Few>,
     step: Step,
 }
 
@@ -73,7 +79,8 @@ impl Component {
         let blocks: Vec<usize> = (0..world.system.coupled.len()).filter(holds).collect();
         let tied = blocks.iter().flat_map(|&k| world.system.coupled[k].coordinates.iter().copied());
         let constraints = Constraints::new(world, &contacts, tied);
-        Self { coordinates, stuck, blocks, contacts, backs, constraints, step: Step::default() }
+        let few = if blocks.is_empty() { Few::new(world, &contacts) } else { None };
+        Self { coordinates, stuck, blocks, contacts, backs, constraints, few, step: Step::default() }
     }
 
     /// Forces of the contacts at time `t` and state `(q, v)`, kept in `at`, and the accelerations of all coordinates
@@ -95,6 +102,26 @@ impl Component {
         }
         self.constraints.press(at, acceleration);
         true
+    }
+
+    /// The same accelerations where contacts are few.
+    fn accelerate_few(
+        &self,
+        world: &mut World,
+        few: &Few,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+        acceleration: &mut [f64],
+    ) -> bool {
+        world.prescribe(t, acceleration);
+        for &i in &self.coordinates {
+            acceleration[i] = world.acceleration_alone(i, q[i], v[i]);
+        }
+        let at = few.at(world, (q, v));
+        if let Some(at) = &at {
+            few.press(at, acceleration);
+        }
+        at.is_some()
     }
 
     fn inertia<'m>(&self, world: &'m World, state: (&[f64], &[f64])) -> Inertia<'m> {
@@ -208,14 +235,17 @@ impl Component {
         if self.contacts.is_empty() {
             return;
         }
+        let exact = 0.1 * crate::search::CLOSED * world.system.size;
+        if let Some(few) = &self.few {
+            return few.project(world, exact, q, v);
+        }
         let mut at = self.constraints.state();
-        for _ in 0..3 {
+        for _ in 0..PROJECTIONS {
             self.constraints.evaluate(world, (q, v), &mut at);
             if !self.constraints.weigh(&self.inertia(world, (q, v)), &mut at) {
                 return;
             }
             self.constraints.take_away(&mut at, |line| line.rate, v);
-            let exact = 0.1 * crate::search::CLOSED * world.system.size;
             if at.contacts.iter().all(|line| line.gap.abs() <= exact) {
                 return;
             }
@@ -284,7 +314,11 @@ impl Equations for ComponentEquations<'_, '_> {
             (self.q[i], self.v[i]) = (y[k], y[n + k]);
         }
         let state = (self.q.as_slice(), self.v.as_slice());
-        let solved = self.component.forces(self.world, t, state, &mut self.acceleration, &mut self.at);
+        let (component, world) = (self.component, &mut *self.world);
+        let solved = match &component.few {
+            Some(few) => component.accelerate_few(world, few, t, state, &mut self.acceleration),
+            None => component.forces(world, t, state, &mut self.acceleration, &mut self.at),
+        };
         self.singular |= !solved;
         for (k, &i) in self.component.coordinates.iter().enumerate() {
             dy[k] = self.v[i];

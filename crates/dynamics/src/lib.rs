@@ -16,6 +16,7 @@ mod descent;
 mod energy;
 mod engine;
 mod events;
+mod few;
 mod flight;
 mod halts;
 mod impact;

@@ -9,7 +9,7 @@ use mainspring_geometry::Vec2;
 
 /// What two features that touch are made of.
 #[derive(Clone, Copy, Debug)]
-enum Shapes {
+pub(crate) enum Shapes {
     /// Centre and radius of the round one; start and normal of the edge, which may be the first body's.
     RoundEdge { center: Vec2, radius: f64, from: Vec2, normal: Vec2, edge_first: bool },
     /// Centres, their distance when touching, and +1 outside each other, −1 one inside the other.
@@ -19,7 +19,7 @@ enum Shapes {
 /// A contact between two bodies, ready to be evaluated at many places.
 #[derive(Clone, Copy, Debug)]
 pub struct Constraint {
-    shapes: Shapes,
+    pub(crate) shapes: Shapes,
     /// How many joints both chains begin with: nothing between the bodies depends on them.
     pub shared: usize,
 }

@@ -3,8 +3,8 @@
 
 use mainspring_geometry::Scalar;
 use mainspring_mechanism::{
-    Body, Constraint, Feature, FeatureShape, GapKind, Joint, Motion, Moving, Placed, Relative, approach,
-    features, gap, gap_between, gap_state,
+    Body, Constraint, Feature, FeatureShape, GapKind, Hinge, HingeConstraint, Joint, Motion, Moving, Placed,
+    Relative, approach, features, gap, gap_between, gap_state,
 };
 use num_dual::{Dual2_64, Dual64};
 use shapes::{outline, p};
@@ -107,21 +107,28 @@ fn check(
 #[test]
 fn constraints_agree_with_gaps() {
     let (bodies, q, v) = (bodies(), [0.37, -0.81, 0.45, 1.2], [0.9, -1.3, 0.6, 0.4]);
-    let mut met = 0;
+    let (mut met, mut hinged) = (0, 0);
     for (i, a) in bodies.iter().enumerate() {
         for b in bodies.iter().enumerate().filter(|(j, _)| *j != i).map(|b| b.1) {
             let (fa, fb) = (features(&a.outline, 5.0), features(&b.outline, 5.0));
             for (x, y) in fa.iter().flat_map(|x| fb.iter().map(move |y| (x, y))) {
                 let Some(kind) = GapKind::of(x, y) else { continue };
-                compare((a, b), (x, y), kind, &q, &v);
+                hinged += usize::from(compare((a, b), (x, y), kind, &q, &v));
                 met += 1;
             }
         }
     }
-    assert!(met > 300, "{met}");
+    assert!(met > 300 && hinged > 30, "{met} {hinged}");
 }
 
-fn compare(bodies: (&Body, &Body), f: (&Feature, &Feature), kind: GapKind, q: &[f64; 4], v: &[f64; 4]) {
+/// True if both hang on one joint or none.
+fn compare(
+    bodies: (&Body, &Body),
+    f: (&Feature, &Feature),
+    kind: GapKind,
+    q: &[f64; 4],
+    v: &[f64; 4],
+) -> bool {
     let placed = (Placed::new(bodies.0, q), Placed::new(bodies.1, q));
     let state = gap_state(kind, f.0, f.1, &placed.0.pose, &placed.1.pose);
     let constraint = Constraint::new(kind, f, bodies);
@@ -142,6 +149,17 @@ fn compare(bodies: (&Body, &Body), f: (&Feature, &Feature), kind: GapKind, q: &[
     sides.1.slopes(b, first, seen.normal, seen.points.1, |k, slope| row[b[k].coordinate] -= slope);
     let expected = state.row(&placed.0, &placed.1);
     (0..4).for_each(|i| near(row[i], expected.at(i)));
+    let (Some(ha), Some(hb)) = (Hinge::of(bodies.0), Hinge::of(bodies.1)) else { return false };
+    let hung = [&ha, &hb].map(|h| h.at(q[h.coordinate], v[h.coordinate]));
+    let same = HingeConstraint::new(&constraint, (&ha, &hb)).at(&hung[0], &hung[1]);
+    near(same.gap, seen.gap);
+    near(same.rate, seen.rate);
+    near(same.bias, seen.bias);
+    let mut row = [0.0; 4];
+    row[ha.coordinate] += same.slopes[0];
+    row[hb.coordinate] += same.slopes[1];
+    (0..4).for_each(|i| near(row[i], expected.at(i)));
+    true
 }
 
 #[test]
