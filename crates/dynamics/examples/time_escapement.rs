@@ -16,7 +16,7 @@ fn main() {
         let mut run = Simulation::new(&system, &source, Options { until: 37.0, ..Options::default() });
         run.run(&mut |_| true);
         times.push(start.elapsed());
-        stats = Some((run.stats, run.world.queries, run.record.energy.residual()));
+        stats = Some((run.stats, run.world.lists.queries, run.record.energy.residual()));
     }
     times.sort();
     println!("median {:?}, least {:?}; {stats:?}", times[times.len() / 2], times[0]);

@@ -22,6 +22,7 @@ mod halts;
 mod impact;
 mod inertia;
 mod linear;
+mod lists;
 mod march;
 mod minima;
 mod near;

@@ -34,15 +34,20 @@ pub struct March<'a> {
 
 impl<'a> March<'a> {
     /// From time `t`, with bounds of motion until the end of the stretch.
-    pub fn new(world: &World<'a>, candidate: &Candidate, pace: Pace, floor: Option<f64>, t: f64) -> Self {
-        let (features, waiting) = (world.features(candidate), floor.is_some());
+    pub fn new(
+        features: (&'a Feature, &'a Feature),
+        candidate: &Candidate,
+        pace: Pace,
+        floor: Option<f64>,
+        t: f64,
+    ) -> Self {
         Self {
             candidate: *candidate,
             features,
             pace,
             bounds: None,
             floor,
-            waiting,
+            waiting: floor.is_some(),
             clear: t,
             looks: 0,
             open: None,

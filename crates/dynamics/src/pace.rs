@@ -109,6 +109,12 @@ impl Pace {
         Self { sides: [self.sides[0].shared(shares[0]), self.sides[1].shared(shares[1])] }
     }
 
+    /// `shared(shares).total()`.
+    #[inline]
+    pub fn shared_total(&self, shares: [f64; 2]) -> f64 {
+        shares[0] * self.sides[0].speed + shares[1] * self.sides[1].speed
+    }
+
     /// Greatest speed at which features of the two bodies approach.
     pub fn total(&self) -> f64 {
         self.sides[0].speed + self.sides[1].speed

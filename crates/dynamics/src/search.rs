@@ -178,16 +178,19 @@ fn within_reach<'a>(
     let mut marches = Small::new();
     for candidate in world.listed(interaction).iter().filter(|c| c.distance <= farthest) {
         let shares = world.shares(candidate);
-        let pace = pace.shared(shares);
-        let reach = sides[0] * shares[0] + sides[1] * shares[1] + pace.total() * (end - sight.t);
+        let speed = pace.shared_total(shares);
+        let reach = sides[0] * shares[0] + sides[1] * shares[1] + speed * (end - sight.t);
+        if candidate.distance > reach {
+            continue;
+        }
         let watch = watched.iter().find(|w| w.0 == candidate.id).map(|w| w.1);
         // A contact opposed to a closed one stays as far open as it is.
         let apart = || closed().any(|c| are_opposed(world, c, candidate));
         let (a, b) = world.features(candidate);
         let misses = || misses_cone(candidate.kind, a, b, &relative, turn);
-        if candidate.distance <= reach && watch != Some(Watch::Closed) && !misses() && !apart() {
+        if watch != Some(Watch::Closed) && !misses() && !apart() {
             let floor = watch.and_then(Watch::floor);
-            marches.push(March::new(world, candidate, pace, floor, sight.t));
+            marches.push(March::new((a, b), candidate, pace.shared(shares), floor, sight.t));
         }
     }
     marches

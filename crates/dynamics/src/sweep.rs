@@ -196,7 +196,8 @@ impl<'s, 'a> Sweep<'s, 'a> {
         let state = (sight.q.as_slice(), sight.v.as_slice());
         let pace = Pace::new(&world.arms[interaction], sight.stretch.paths, state, end - t);
         let floor = self.watched.iter().find(|w| w.0 == candidate.id).and_then(|w| w.1.floor());
-        self.marches.push(March::new(world, candidate, pace.shared(world.shares(candidate)), floor, t));
+        let pace = pace.shared(world.shares(candidate));
+        self.marches.push(March::new(world.features(candidate), candidate, pace, floor, t));
     }
 
     /// Looks at the contacts that are due at time `t`.

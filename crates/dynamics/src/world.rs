@@ -1,9 +1,7 @@
-//! Contacts at a configuration: evaluated, counted, and kept in lists of those near enough to matter.
-//!
-//! A list made at configuration q₀ with reach r names every contact whose features were nearer than r. Features
-//! move no faster than their lever arms allow, so until the arms have travelled r no other contact can close.
+//! Contacts at a configuration: evaluated, counted, and listed where they are near enough to matter.
 
 use crate::inertia::Freedom;
+use crate::lists::Lists;
 use crate::path::DrivenPath;
 use crate::sweep::Places;
 use mainspring_mechanism::{
@@ -41,21 +39,11 @@ impl Arm {
 /// The moment after a start from rest at which a drive shows where it goes, relative to the length of its piece.
 const ONSET: f64 = 1e-6;
 
-#[derive(Clone, Debug, Default)]
-struct NearList {
-    /// Positions of the arms' coordinates when the list was made; empty before the first.
-    made_at: Vec<f64>,
-    candidates: Vec<Candidate>,
-    /// Every contact not listed was at least this far apart.
-    bound: f64,
-}
-
 /// The system with its source of candidates and the work done.
 pub struct World<'a> {
     pub system: &'a System,
-    source: &'a dyn ContactSource,
+    pub lists: Lists<'a>,
     pub arms: Vec<Vec<Arm>>,
-    near: Vec<NearList>,
     /// For each interaction where contacts lie along the motion of one coordinate.
     pub places: Vec<Places>,
     /// Coordinates of prescribed motion.
@@ -71,8 +59,6 @@ pub struct World<'a> {
     pub sliding: Vec<f64>,
     /// Gap evaluations so far.
     pub evaluations: u64,
-    /// Lists made so far.
-    pub queries: u64,
 }
 
 /// Two bodies of an interaction, placed.
@@ -125,7 +111,6 @@ impl Touch<'_> {
 impl<'a> World<'a> {
     pub fn new(system: &'a System, source: &'a dyn ContactSource) -> Self {
         let arms: Vec<Vec<Arm>> = (0..system.interactions.len()).map(|i| arms(system, i)).collect();
-        let near = vec![NearList::default(); arms.len()];
         let places = vec![Places::default(); arms.len()];
         let drives: Vec<(usize, &Drive)> =
             system.forces.drives.iter().enumerate().filter_map(|(i, d)| Some((i, d.as_ref()?))).collect();
@@ -137,9 +122,8 @@ impl<'a> World<'a> {
         let (stuck, sliding) = (vec![false; n], vec![0.0; n]);
         Self {
             system,
-            source,
+            lists: Lists::new(system, source),
             arms,
-            near,
             places,
             drives,
             driven: pieces,
@@ -148,7 +132,6 @@ impl<'a> World<'a> {
             stuck,
             sliding,
             evaluations: 0,
-            queries: 0,
         }
     }
 
@@ -297,17 +280,7 @@ impl<'a> World<'a> {
 
     /// How far the arms of either side of an interaction have moved since its list was made.
     pub fn travelled(&self, interaction: usize, q: &[f64]) -> [f64; 2] {
-        let made_at = &self.near[interaction].made_at;
-        if made_at.is_empty() {
-            return [f64::INFINITY; 2];
-        }
-        let mut sides = [0.0; 2];
-        let arms = &self.arms[interaction];
-        for (arm, at) in arms.iter().zip(made_at) {
-            let length = arm.reach(|k| q[arms[k].coordinate].abs().max(made_at[k].abs()));
-            sides[usize::from(arm.second)] += length * (q[arm.coordinate] - at).abs();
-        }
-        sides
+        self.lists.travelled(interaction, &self.arms[interaction], q)
     }
 
     /// Lever arms of a contact's features as shares of the greatest.
@@ -316,39 +289,14 @@ impl<'a> World<'a> {
         [shares.0[c.id.first as usize], shares.1[c.id.second as usize]]
     }
 
-    /// Makes sure that the list of an interaction names every contact nearer than `within` at `q`. Returns how far
-    /// the arms have moved since the list was made, and how much further they may move before an unlisted contact
-    /// can be nearer than `within`.
+    /// Makes sure that the list of an interaction names every contact nearer than `within` at `q`; see `Lists`.
     pub fn refresh(&mut self, interaction: usize, q: &[f64], within: f64) -> (f64, f64) {
-        let travelled: f64 = self.travelled(interaction, q).iter().sum();
-        let room = self.near[interaction].bound - within - travelled;
-        // A list about to run out is made again: stretches between lists must not become ever shorter.
-        if room > 0.01 * self.system.size {
-            return (travelled, room);
-        }
-        let bodies = self.system.interactions[interaction].bodies;
-        let pose = |body: usize| self.system.bodies[body].pose(q);
-        let (a, b) = (pose(bodies.0), pose(bodies.1));
-        let list = &mut self.near[interaction];
-        list.made_at = self.arms[interaction].iter().map(|arm| q[arm.coordinate]).collect();
-        // Wider until something is found: a far pair then needs no look for a long time.
-        let mut reach = (0.04 * self.system.size).max(2.0 * within);
-        for _ in 0..12 {
-            list.candidates.clear();
-            self.queries += 1;
-            self.source.candidates(interaction, &a, &b, reach, &mut list.candidates);
-            list.bound = reach;
-            if !list.candidates.is_empty() {
-                break;
-            }
-            reach *= 2.0;
-        }
-        (0.0, list.bound - within)
+        self.lists.refresh(interaction, &self.arms[interaction], q, within)
     }
 
     /// The contacts listed for an interaction, with a lower bound of the distance of their features when listed.
     pub fn listed(&self, interaction: usize) -> &[Candidate] {
-        &self.near[interaction].candidates
+        self.lists.of(interaction)
     }
 }
 
