@@ -7,7 +7,7 @@
 //! ones have their prescribed acceleration.
 
 use crate::constraints::{AtState, Constraints};
-use crate::few::Few;
+use crate::few::{Few, FewAt, MOST};
 use crate::flight::Bounds;
 use crate::inertia::Inertia;
 use crate::linear::Small;
@@ -44,7 +44,7 @@ pub struct Component {
     pub backs: Vec<Option<Candidate>>,
     pub constraints: Constraints,
     /// The same where it is cheaper.
-    few: Option<Few>,
+    pub few: Option<Few>,
     step: Step,
 }
 
@@ -79,7 +79,7 @@ impl Component {
         let blocks: Vec<usize> = (0..world.system.coupled.len()).filter(holds).collect();
         let tied = blocks.iter().flat_map(|&k| world.system.coupled[k].coordinates.iter().copied());
         let constraints = Constraints::new(world, &contacts, tied);
-        let few = if blocks.is_empty() { Few::new(world, &contacts) } else { None };
+        let few = if blocks.is_empty() { Few::new(world, &coordinates, &contacts) } else { None };
         Self { coordinates, stuck, blocks, contacts, backs, constraints, few, step: Step::default() }
     }
 
@@ -104,24 +104,17 @@ impl Component {
         true
     }
 
-    /// The same accelerations where contacts are few.
-    fn accelerate_few(
+    /// The same where contacts are few, as `at` then tells: their forces.
+    pub fn few_forces(
         &self,
         world: &mut World,
-        few: &Few,
+        (few, at): (&Few, &mut FewAt),
         t: f64,
-        (q, v): (&[f64], &[f64]),
+        state: (&[f64], &[f64]),
         acceleration: &mut [f64],
-    ) -> bool {
+    ) -> Option<[f64; MOST]> {
         world.prescribe(t, acceleration);
-        for &i in &self.coordinates {
-            acceleration[i] = world.acceleration_alone(i, q[i], v[i]);
-        }
-        let at = few.at(world, (q, v));
-        if let Some(at) = &at {
-            few.press(at, acceleration);
-        }
-        at.is_some()
+        few.go_to(world, state, at).then(|| few.accelerate(state, at, acceleration))
     }
 
     fn inertia<'m>(&self, world: &'m World, state: (&[f64], &[f64])) -> Inertia<'m> {
@@ -261,6 +254,7 @@ struct ComponentEquations<'c, 'w> {
     v: Small<f64, 8>,
     acceleration: Small<f64, 8>,
     at: AtState,
+    few_at: FewAt,
     singular: bool,
 }
 
@@ -282,6 +276,10 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
         for (&i, q) in self.component.coordinates.iter().zip(dense) {
             self.q[i] = q.at(x);
         }
+        if let Some(few) = &self.component.few {
+            few.go_to(self.world, (&self.q, &self.v), &mut self.few_at);
+            return few.gaps(&self.few_at);
+        }
         self.component.constraints.evaluate(self.world, (&self.q, &self.v), &mut self.at);
         self.at.contacts.iter().map(|line| line.gap).collect()
     }
@@ -301,6 +299,7 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
             v: v.into(),
             acceleration: smallvec::smallvec![0.0; q.len()],
             at: component.constraints.state(),
+            few_at: FewAt::default(),
             singular: false,
         }
     }
@@ -308,21 +307,24 @@ impl<'c, 'w> ComponentEquations<'c, 'w> {
 
 impl Equations for ComponentEquations<'_, '_> {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        let n = self.component.coordinates.len();
         self.follow_drives(t);
-        for (k, &i) in self.component.coordinates.iter().enumerate() {
-            (self.q[i], self.v[i]) = (y[k], y[n + k]);
-        }
-        let state = (self.q.as_slice(), self.v.as_slice());
         let (component, world) = (self.component, &mut *self.world);
+        let coordinates = component.coordinates.as_slice();
+        let (q, v, acceleration) = (&mut self.q[..], &mut self.v[..], &mut self.acceleration[..]);
+        let (positions, velocities) = y.split_at(coordinates.len());
+        for ((&i, position), velocity) in coordinates.iter().zip(positions).zip(velocities) {
+            (q[i], v[i]) = (*position, *velocity);
+        }
         let solved = match &component.few {
-            Some(few) => component.accelerate_few(world, few, t, state, &mut self.acceleration),
-            None => component.forces(world, t, state, &mut self.acceleration, &mut self.at),
+            Some(few) => {
+                component.few_forces(world, (few, &mut self.few_at), t, (q, v), acceleration).is_some()
+            }
+            None => component.forces(world, t, (q, v), acceleration, &mut self.at),
         };
         self.singular |= !solved;
-        for (k, &i) in self.component.coordinates.iter().enumerate() {
-            dy[k] = self.v[i];
-            dy[n + k] = self.acceleration[i];
+        let (rates, changes) = dy.split_at_mut(coordinates.len());
+        for ((&i, rate), change) in coordinates.iter().zip(rates).zip(changes) {
+            (*rate, *change) = (v[i], acceleration[i]);
         }
     }
 }

@@ -4,20 +4,30 @@
 use crate::component::PROJECTIONS;
 use crate::linear::Small;
 use crate::world::World;
-use mainspring_mechanism::{Candidate, Constraint, Hinge, HingeConstraint, Hinged, Hung};
+use mainspring_mechanism::{Candidate, Constraint, Hinge, HingeConstraint, Hinged, Hung, Pose};
 
 /// Contacts at most.
-const MOST: usize = 2;
+pub const MOST: usize = 2;
 /// A pivot below this part of its diagonal entry is none, as in `linear::factorize`.
 const DEPENDENT: f64 = 1e-12;
 
 /// What each contact is made of, looked up once.
 #[derive(Clone, Debug)]
 pub struct Few {
+    coordinates: Small<Alone>,
     hinges: Small<Hinge>,
     contacts: Small<Pair, MOST>,
     /// For either coordinate of the first and of the second contact: 1/I if they are the same, else 0.
     common: [[f64; 2]; 2],
+}
+
+/// A coordinate without contacts: `q̈ = drive − stiffness q − damping q̇`, all by its inertia.
+#[derive(Clone, Copy, Debug)]
+struct Alone {
+    coordinate: usize,
+    drive: f64,
+    stiffness: f64,
+    damping: f64,
 }
 
 /// A contact with the places of its bodies in the list, and 1/I of the coordinates that move them.
@@ -29,21 +39,24 @@ struct Pair {
     mobility: [f64; 2],
 }
 
-/// The contacts at one state, and the factor L D Lᵀ of G M⁻¹ Gᵀ.
+/// The bodies and contacts at one state, and the factor L D Lᵀ of G M⁻¹ Gᵀ.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FewAt {
-    pub lines: [Hinged; MOST],
+    hung: [Hung; 2 * MOST],
+    lines: [Hinged; MOST],
     pivots: [f64; MOST],
     below: f64,
 }
 
 impl Few {
-    /// None in any other case.
-    pub fn new(world: &World, contacts: &[Candidate]) -> Option<Self> {
+    /// For contacts that tie these coordinates, none of them to others by masses. None in any other case.
+    pub fn new(world: &World, coordinates: &[usize], contacts: &[Candidate]) -> Option<Self> {
         if contacts.is_empty() || contacts.len() > MOST {
             return None;
         }
-        let mut few = Self { hinges: Small::new(), contacts: Small::new(), common: [[0.0; 2]; 2] };
+        let coordinates = coordinates.iter().map(|&i| Alone::new(world, i)).collect();
+        let (hinges, contacts_of) = (Small::new(), Small::new());
+        let mut few = Self { coordinates, hinges, contacts: contacts_of, common: [[0.0; 2]; 2] };
         let mut known: Small<usize> = Small::new();
         for contact in contacts {
             let pair = few.pair(world, contact, &mut known)?;
@@ -64,15 +77,15 @@ impl Few {
         let ids = world.bodies(contact);
         let bodies = [ids.0, ids.1].map(|k| &world.system.bodies[k]);
         let hinges = [Hinge::of(bodies[0])?, Hinge::of(bodies[1])?];
-        let tied =
-            |h: &Hinge| h.moves() && !world.free.is_alone(h.coordinate) && !world.free.is_held(h.coordinate);
+        let free = &world.free;
+        let tied = |h: &Hinge| h.moves() && !free.is_alone(h.coordinate) && !free.is_held(h.coordinate);
         let both = hinges.iter().all(Hinge::moves) && hinges[0].coordinate == hinges[1].coordinate;
         if both || hinges.iter().any(tied) {
             return None;
         }
         let constraint = Constraint::new(contact.kind, world.features(contact), (bodies[0], bodies[1]));
         let constraint = HingeConstraint::new(&constraint, (&hinges[0], &hinges[1]));
-        let mobility = |h: &Hinge| if h.moves() { world.free.mobility(h.coordinate) } else { 0.0 };
+        let mobility = |h: &Hinge| if h.moves() { free.mobility(h.coordinate) } else { 0.0 };
         let mobility = [mobility(&hinges[0]), mobility(&hinges[1])];
         let coordinates = [hinges[0].coordinate, hinges[1].coordinate];
         let sides = [(ids.0, hinges[0]), (ids.1, hinges[1])].map(|(body, hinge)| {
@@ -85,66 +98,97 @@ impl Few {
         Some(Pair { constraint, sides, coordinates, mobility })
     }
 
-    /// Every contact at `(q, v)`, ready to solve for forces. None if they are not independent here.
-    pub fn at(&self, world: &mut World, (q, v): (&[f64], &[f64])) -> Option<FewAt> {
-        world.evaluations += self.contacts.len() as u64;
-        let mut hung = [Hung::default(); 2 * MOST];
-        for (hung, hinge) in hung.iter_mut().zip(&self.hinges) {
+    /// Goes to the state `(q, v)`. False if the contacts are not independent there.
+    pub fn go_to(&self, world: &mut World, (q, v): (&[f64], &[f64]), at: &mut FewAt) -> bool {
+        for (hung, hinge) in at.hung.iter_mut().zip(self.hinges.as_slice()) {
             *hung = hinge.at(q[hinge.coordinate], v[hinge.coordinate]);
         }
-        let mut at = FewAt::default();
+        let pairs = self.contacts.as_slice();
+        world.evaluations += pairs.len() as u64;
         let mut diagonal = [0.0; MOST];
-        for (k, pair) in self.contacts.iter().enumerate() {
-            let line = pair.constraint.at(&hung[pair.sides[0]], &hung[pair.sides[1]]);
+        for ((pair, line), entry) in pairs.iter().zip(&mut at.lines).zip(&mut diagonal) {
+            *line = pair.constraint.at(&at.hung[pair.sides[0]], &at.hung[pair.sides[1]]);
             let [g, h] = line.slopes;
-            diagonal[k] = g * g * pair.mobility[0] + h * h * pair.mobility[1];
-            at.lines[k] = line;
+            *entry = g * g * pair.mobility[0] + h * h * pair.mobility[1];
         }
         at.pivots = diagonal;
-        if self.contacts.len() == MOST {
+        if pairs.len() == MOST {
             let ([g, h], [x, y]) = (at.lines[0].slopes, at.lines[1].slopes);
             let [[gx, gy], [hx, hy]] = self.common;
             let product = g * (gx * x + gy * y) + h * (hx * x + hy * y);
             at.below = product / diagonal[0];
             at.pivots[1] -= at.below * product;
         }
-        let firm = |k: usize| at.pivots[k] > DEPENDENT * diagonal[k] && at.pivots[k].is_finite();
-        (0..self.contacts.len()).all(firm).then_some(at)
+        let firm = |(pivot, entry): (&f64, &f64)| *pivot > DEPENDENT * entry && pivot.is_finite();
+        at.pivots.iter().zip(&diagonal).take(pairs.len()).all(firm)
     }
 
-    /// Adds to `acceleration`, which holds what is without contacts, their part.
-    pub fn press(&self, at: &FewAt, acceleration: &mut [f64]) {
-        let mut excess = [0.0; MOST];
-        for (k, pair) in self.contacts.iter().enumerate() {
-            let ([g, h], [i, j]) = (at.lines[k].slopes, pair.coordinates);
-            excess[k] = g * acceleration[i] + h * acceleration[j] + at.lines[k].bias;
+    /// Accelerations of the coordinates, and the forces of the contacts, where `at` is. Those of driven coordinates are
+    /// given.
+    pub fn accelerate(&self, (q, v): (&[f64], &[f64]), at: &FewAt, acceleration: &mut [f64]) -> [f64; MOST] {
+        for alone in self.coordinates.as_slice() {
+            let i = alone.coordinate;
+            acceleration[i] = alone.drive - alone.stiffness * q[i] - alone.damping * v[i];
         }
-        self.take_away(at, excess, acceleration);
+        let mut excess = [0.0; MOST];
+        for ((pair, line), excess) in self.contacts.as_slice().iter().zip(&at.lines).zip(&mut excess) {
+            let ([g, h], [i, j]) = (line.slopes, pair.coordinates);
+            *excess = g * acceleration[i] + h * acceleration[j] + line.bias;
+        }
+        self.take_away(at, excess, acceleration)
     }
 
-    /// Moves `x` by the least change `M⁻¹ Gᵀ λ` that takes away each contact's excess.
-    pub fn take_away(&self, at: &FewAt, excess: [f64; MOST], x: &mut [f64]) {
+    /// Moves `x` by the least change `M⁻¹ Gᵀ λ` that takes away each contact's excess; returns λ.
+    fn take_away(&self, at: &FewAt, excess: [f64; MOST], x: &mut [f64]) -> [f64; MOST] {
+        let pairs = self.contacts.as_slice();
         let mut lambda = [-excess[0] / at.pivots[0], 0.0];
-        if self.contacts.len() == MOST {
+        if pairs.len() == MOST {
             lambda[1] = (at.below * excess[0] - excess[1]) / at.pivots[1];
             lambda[0] -= at.below * lambda[1];
         }
-        for (k, pair) in self.contacts.iter().enumerate() {
+        for ((pair, line), lambda) in pairs.iter().zip(&at.lines).zip(lambda) {
             for side in 0..2 {
-                x[pair.coordinates[side]] += pair.mobility[side] * at.lines[k].slopes[side] * lambda[k];
+                x[pair.coordinates[side]] += pair.mobility[side] * line.slopes[side] * lambda;
             }
         }
+        lambda
+    }
+
+    /// Every contact's gap where `at` is.
+    pub fn gaps(&self, at: &FewAt) -> Small<f64> {
+        at.lines[..self.contacts.len()].iter().map(|line| line.gap).collect()
+    }
+
+    /// The poses of the bodies of the k-th contact.
+    pub fn poses(&self, k: usize, at: &FewAt) -> [Pose; 2] {
+        self.contacts[k].sides.map(|side| self.hinges[side].pose(&at.hung[side]))
     }
 
     /// Moves `q` onto g = 0, to `exact`, and `v` onto G q̇ = 0.
     pub fn project(&self, world: &mut World, exact: f64, q: &mut [f64], v: &mut [f64]) {
+        let mut at = FewAt::default();
         for _ in 0..PROJECTIONS {
-            let Some(at) = self.at(world, (q, v)) else { return };
+            if !self.go_to(world, (q, v), &mut at) {
+                return;
+            }
             self.take_away(&at, at.lines.map(|line| line.rate), v);
             if at.lines.iter().all(|line| line.gap.abs() <= exact) {
                 return;
             }
             self.take_away(&at, at.lines.map(|line| line.gap), q);
+        }
+    }
+}
+
+impl Alone {
+    fn new(world: &World, coordinate: usize) -> Self {
+        let c = &world.system.coordinates[coordinate];
+        let force = c.force + world.dry_force(coordinate);
+        Self {
+            coordinate,
+            drive: force / c.inertia,
+            stiffness: c.stiffness / c.inertia,
+            damping: c.damping / c.inertia,
         }
     }
 }

@@ -3,12 +3,13 @@
 
 use crate::component::Component;
 use crate::constraints::AtState;
+use crate::few::FewAt;
 use crate::halts::Halt;
 use crate::linear::Small;
 use crate::root::narrow;
 use crate::search::Stretch;
 use crate::world::World;
-use mainspring_mechanism::{Candidate, ContactId, gap_state};
+use mainspring_mechanism::{Candidate, ContactId, Pose, gap_state};
 
 /// Why a stretch ends before its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,6 +108,9 @@ impl Probe<'_, '_, '_> {
     /// holds: all stays while these are positive.
     fn measure_all(&mut self, world: &mut World, t: f64) -> Small<f64, 8> {
         self.move_to(world, t);
+        if let Some(measures) = self.measure_few(world, t) {
+            return measures;
+        }
         let state = (self.q.as_slice(), self.v.as_slice());
         self.component.forces(world, t, state, &mut self.acceleration, &mut self.at);
         let mut measures: Small<f64, 8> = Small::new();
@@ -128,6 +132,26 @@ impl Probe<'_, '_, '_> {
         measures
     }
 
+    /// The same of few contacts, where dry friction holds nothing.
+    fn measure_few(&mut self, world: &mut World, t: f64) -> Option<Small<f64, 8>> {
+        let component = self.component;
+        let few = component.few.as_ref().filter(|_| component.stuck.is_empty())?;
+        let state = (self.q.as_slice(), self.v.as_slice());
+        let mut at = FewAt::default();
+        let forces = component.few_forces(world, (few, &mut at), t, state, &mut self.acceleration)?;
+        let mut measures: Small<f64, 8> = Small::new();
+        for (k, contact) in component.contacts.iter().enumerate() {
+            let [a, b] = few.poses(k, &at);
+            let (force, margin) = (forces[k], margin_between(world, contact, (&a, &b)));
+            match &component.backs[k] {
+                // What is held from both sides is held whichever of them carries the force.
+                Some(back) => measures.extend([1.0, margin.min(margin_between(world, back, (&a, &b)))]),
+                None => measures.extend([force, margin]),
+            }
+        }
+        Some(measures)
+    }
+
     /// The force of dry friction on the k-th stuck coordinate, where last measured.
     fn held(&mut self, world: &mut World, k: usize) -> f64 {
         let state = (self.q.as_slice(), self.v.as_slice());
@@ -147,10 +171,7 @@ impl Probe<'_, '_, '_> {
     /// The same for one of the component's own contacts, whose bodies are placed where last measured.
     fn margin_between(&self, world: &World, contact: &Candidate, sides: Option<(usize, usize)>) -> f64 {
         let Some((a, b)) = sides else { return f64::INFINITY };
-        let (features, size) = (world.features(contact), world.system.size);
-        let poses = (&self.at.bodies[a].pose, &self.at.bodies[b].pose);
-        let state = gap_state(contact.kind, features.0, features.1, poses.0, poses.1);
-        state.edge_margin.min(state.cone_margin * size) + PAST_END * size
+        margin_between(world, contact, (&self.at.bodies[a].pose, &self.at.bodies[b].pose))
     }
 
     /// How far a contact still is from running off its feature, where last moved to.
@@ -185,4 +206,11 @@ impl Probe<'_, '_, '_> {
         }
         narrow(|t| self.measure(world, i, t), start, bad).1.0
     }
+}
+
+/// How far a contact is from running off its feature between bodies at these poses.
+fn margin_between(world: &World, contact: &Candidate, (a, b): (&Pose, &Pose)) -> f64 {
+    let (features, size) = (world.features(contact), world.system.size);
+    let state = gap_state(contact.kind, features.0, features.1, a, b);
+    state.edge_margin.min(state.cone_margin * size) + PAST_END * size
 }

@@ -2,7 +2,7 @@
 //! tells, from a few products.
 
 use crate::constraint::{Constraint, Shapes};
-use crate::system::{Body, Joint, Motion};
+use crate::system::{Body, Joint, Motion, Pose};
 use mainspring_geometry::Vec2;
 
 /// How a body on one joint or none moves.
@@ -74,6 +74,11 @@ impl Hinge {
         let slope = self.direction * self.ratio;
         Hung { cos: 1.0, sin: 0.0, place: slope * q, turning: 0.0, sliding: slope * v, slopes: (0.0, slope) }
     }
+
+    /// Its pose where it hangs like this.
+    pub fn pose(&self, hung: &Hung) -> Pose {
+        Pose { cos: hung.cos, sin: hung.sin, shift: hung.place - hung.rotate(self.center) }
+    }
 }
 
 impl Hung {
@@ -98,6 +103,8 @@ impl Hung {
 /// The same contact between bodies on one joint each.
 #[derive(Clone, Copy, Debug)]
 pub struct HingeConstraint {
+    /// Of an edge, the radius that counts is the distance of the round one's centre from the parallel through the edge's
+    /// own place.
     shapes: Shapes,
 }
 
@@ -117,7 +124,7 @@ impl HingeConstraint {
             Shapes::RoundEdge { center, radius, from, normal, edge_first } => {
                 let (round, edge) = if edge_first { (b, a) } else { (a, b) };
                 let (center, from) = (round.local(center), edge.local(from));
-                Shapes::RoundEdge { center, radius, from, normal, edge_first }
+                Shapes::RoundEdge { center, radius: radius + normal.dot(from), from, normal, edge_first }
             }
             Shapes::Centers { first, second, touching, side } => {
                 Shapes::Centers { first: a.local(first), second: b.local(second), touching, side }
@@ -130,12 +137,12 @@ impl HingeConstraint {
     #[inline]
     pub fn at(&self, a: &Hung, b: &Hung) -> Hinged {
         match self.shapes {
-            Shapes::RoundEdge { center, radius, from, normal, edge_first } => {
+            Shapes::RoundEdge { center, radius, normal, edge_first, .. } => {
                 let (round, edge) = if edge_first { (b, a) } else { (a, b) };
                 let arm = round.rotate(center);
                 let n = edge.rotate(normal);
                 let across = round.place - edge.place + arm;
-                let gap = n.dot(across) - normal.dot(from) - radius;
+                let gap = n.dot(across) - radius;
                 let ((u, du), (w, dw)) = (round.motion(arm), edge.motion(across));
                 let velocity = u - w;
                 let bias = n.dot(du - dw) - 2.0 * edge.turning * n.dot(velocity.perp());

@@ -104,14 +104,14 @@ impl Descent<'_> {
             for child in [i + 1, m.link] {
                 let node = &first[child];
                 let at = self.relative.apply(node.center);
-                if !beyond(at - n.center, self.reach + node.radius + n.radius) {
+                if node.can_meet(n) && !beyond(at - n.center, self.reach + node.radius + n.radius) {
                     self.descend(child, at, j);
                 }
             }
         } else {
             for child in [j + 1, n.link] {
                 let node = &second[child];
-                if !beyond(at - node.center, self.reach + m.radius + node.radius) {
+                if m.can_meet(node) && !beyond(at - node.center, self.reach + m.radius + node.radius) {
                     self.descend(i, at, child);
                 }
             }
