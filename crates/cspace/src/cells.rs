@@ -15,6 +15,10 @@ use crate::tree::Discs;
 
 /// Feature pairs at which a box is no longer halved.
 const FEW: usize = 30;
+/// Feature pairs and pairs of tree nodes above which nodes are not opened for their own sake.
+const MANY: usize = 4 * FEW;
+/// Pairs of tree nodes opened in one box at most.
+const OPENED: usize = 300;
 /// A box is not halved when its motion is below this part of the size.
 const SMALL: f64 = 1e-3;
 
@@ -74,12 +78,14 @@ pub(crate) fn search(
             continue;
         };
         let axis = usize::from(motion[1] > motion[0]);
-        for side in [1.0, -1.0] {
+        let half_of = |side: f64| {
             let mut part = cell;
             part.half[axis] *= 0.5;
             part.center[axis] += side * part.half[axis];
-            pending.push((part, front.clone()));
-        }
+            part
+        };
+        pending.push((half_of(1.0), front.clone()));
+        pending.push((half_of(-1.0), front));
     }
     work.pairs = catalogue.curves.len();
     work.elements = catalogue.elements.len();
@@ -121,10 +127,17 @@ fn look(
 /// all are single features.
 fn refine(catalogue: &Catalogue, front: Front, around: &Around, motion: f64) -> (Front, bool) {
     let [ta, tb] = &catalogue.trees;
-    let (mut kept, mut coarse): (Front, Front) = (Vec::new(), Vec::new());
-    let mut open = front;
+    let (mut kept, mut coarse): (Front, Front) = (Vec::new(), front);
+    let mut opened = 0;
     for all in [false, true] {
+        let mut open = std::mem::take(&mut coarse);
         while let Some((i, j)) = open.pop() {
+            // The halves of the box open the rest, where less of it is near.
+            if opened >= OPENED || (all && kept.len() + open.len() >= MANY) {
+                coarse.push((i, j));
+                coarse.append(&mut open);
+                break;
+            }
             let (m, n) = (&ta.nodes[i as usize], &tb.nodes[j as usize]);
             if !around.near(m, n) {
                 continue;
@@ -138,15 +151,17 @@ fn refine(catalogue: &Catalogue, front: Front, around: &Around, motion: f64) -> 
                 coarse.push((i, j));
             } else {
                 open.extend(Discs::halved([ta, tb], (i, j)));
+                opened += 1;
             }
         }
-        if kept.len() + coarse.len() > 4 * FEW {
+        if kept.len() + coarse.len() > MANY {
             break;
         }
-        std::mem::swap(&mut open, &mut coarse);
     }
     let fine = coarse.is_empty();
     kept.append(&mut coarse);
-    kept.sort_unstable();
+    if fine {
+        kept.sort_unstable();
+    }
     (kept, fine)
 }
