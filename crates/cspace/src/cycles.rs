@@ -142,7 +142,7 @@ impl Walker<'_> {
 
 impl ConfigurationSpace {
     pub(crate) fn slab_of(&self, cell: usize) -> usize {
-        self.slabs.cells.partition_point(|&c| c as usize <= cell) - 1
+        self.slabs.slab[cell] as usize
     }
 
     pub(crate) fn sides_of(&self, cell: usize) -> ((f64, f64), crate::slabs::Between) {

@@ -31,6 +31,8 @@ pub(crate) struct Slabs {
     pub stack: Vec<u32>,
     /// Where each slab's cells start in `free`.
     pub cells: Vec<u32>,
+    /// The slab of each cell.
+    pub slab: Vec<u32>,
     /// For each cell from below whether it is free. Without wrapping there is one cell more than pieces; with it
     /// as many (the last joins what lies below the first), but one if there is no piece.
     pub free: Vec<bool>,
@@ -185,6 +187,7 @@ pub(crate) fn build(
         slabs.start.push(slabs.stack.len() as u32);
         label(atlas, judge, &mut slabs, s, &mut checked, &order)?;
         slabs.cells.push(slabs.free.len() as u32);
+        slabs.slab.resize(slabs.free.len(), s as u32);
     }
     Ok(slabs)
 }
