@@ -52,6 +52,7 @@ bench: build benchmarks/$(VENV)/ready ## measure time, error and memory on one t
 	benchmarks/$(VENV)/bin/python benchmarks/run.py $(BENCH)
 	cargo run --release --quiet -p mainspring --example sources $(MODELS)
 	cargo run --release --quiet -p mainspring --example maps $(MODELS)
+	cargo run --release --quiet -p mainspring-cspace --example growth | benchmarks/$(VENV)/bin/python benchmarks/growth.py
 
 docs: build ## check the documentation: links, keys, pages without a way to them
 	$(PY) scripts/check_docs.py

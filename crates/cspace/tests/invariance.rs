@@ -83,7 +83,8 @@ fn window(k: &Pair, scale: f64) -> SpaceOptions {
 
 #[test]
 fn moving_scaling_and_exchanging() {
-    for seed in 0..60 {
+    // The last ones have folds just beyond borders of slabs, where areas are hard to tell.
+    for seed in (0..60).chain([155, 1193, 5824, 13157, 21736, 22840]) {
         let k = pair(seed);
         let plain = space(&k.build(0.0, 1.0, (0.0, 0.0)), [0, 1], [0, 1], &window(&k, 1.0));
         let moved = space(&k.build(1.1, 1.0, (3.0, -7.0)), [0, 1], [0, 1], &window(&k, 1.0));
@@ -104,10 +105,18 @@ fn moving_scaling_and_exchanging() {
             same(&one, &ends(&exchanged.slice_first(x)), 1.0, "exchanged");
             same(&one, &ends(&across.slice_second(x).unwrap()), 1.0, "transposed");
         }
-        let count = plain.components().len();
-        assert_eq!(count, exchanged.components().len());
-        assert_eq!(count, across.components().len());
-        assert_eq!(count, plain.transposed().unwrap().components().len());
+        let areas = |map: &ConfigurationSpace| -> Vec<f64> {
+            let mut all: Vec<f64> = map.components().iter().map(|c| c.area).collect();
+            all.sort_by(f64::total_cmp);
+            all
+        };
+        let one = areas(&plain);
+        for (map, what) in [(&exchanged, "exchanged"), (&across, "transposed"), (&moved, "moved")] {
+            let other = areas(map);
+            assert_eq!(one.len(), other.len(), "{what}");
+            one.iter().zip(&other).for_each(|(x, y)| close(*x, *y, 2e-9 * (1.0 + x)));
+        }
+        assert_eq!(one.len(), plain.transposed().unwrap().components().len());
         for c in exchanged.curves().iter().take(5) {
             let [x, y] = c.at(0.5);
             assert!(plain.gap([x, y]).is_some());

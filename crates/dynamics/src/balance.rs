@@ -38,10 +38,11 @@ pub fn forces_at(
 pub fn hold(world: &mut World, instant: &Instant, touches: &[&Near], v: &[f64], out: &mut Settled) {
     let still = touches.iter().filter(|t| t.rate(v).abs() <= t.still).copied().collect();
     let sliding = slides(world, instant, v);
-    world.set_dry(&vec![false; v.len()], &sliding);
+    let none: Small<bool, 8> = smallvec::smallvec![false; v.len()];
+    world.set_dry(&none, &sliding);
     let rests =
         |&i: &usize| world.system.forces.coulomb[i] > 0.0 && sliding[i] == 0.0 && !world.moved.is_held(i);
-    let resting: Vec<usize> = (0..v.len()).filter(rests).collect();
+    let resting: Small<usize, 8> = (0..v.len()).filter(rests).collect();
     let problem = Balance::new(world, still, &resting, instant.t, (instant.q, v));
     (out.stuck, out.sliding) = problem.dry(&resting, sliding);
     let Balance { touches, tolerance, solution, acceleration, weights, .. } = problem;

@@ -1,5 +1,6 @@
 //! The log of contacts: what closed, what let go, with what impulse, and which parts move together afterwards.
 
+use crate::linear::Small;
 use crate::settle::{Closed, Settled};
 use crate::world::World;
 use mainspring_mechanism::{Candidate, ContactId};
@@ -32,6 +33,12 @@ pub struct Event {
 
 /// The entries of one instant, in the order impacts, releases, closes.
 pub fn entries(world: &World, t: f64, before: &[Closed], settled: &Settled) -> Vec<Event> {
+    let has = |list: &[Closed], id: ContactId| list.iter().any(|c| c.candidate.id == id);
+    let mut released = before.iter().filter(|c| !has(&settled.closed, c.candidate.id)).peekable();
+    let mut closed = settled.closed.iter().filter(|c| !has(before, c.candidate.id)).peekable();
+    if settled.impulses.is_empty() && released.peek().is_none() && closed.peek().is_none() {
+        return vec![];
+    }
     let together = moving_together(world, &settled.closed);
     let entry = |kind, candidate: &Candidate, impulse| Event {
         t,
@@ -41,10 +48,7 @@ pub fn entries(world: &World, t: f64, before: &[Closed], settled: &Settled) -> V
         impulse,
         moving_together: together.clone(),
     };
-    let has = |list: &[Closed], id: ContactId| list.iter().any(|c| c.candidate.id == id);
     let impacts = settled.impulses.iter().map(|i| entry(EventKind::Impact, &i.candidate, i.impulse));
-    let released = before.iter().filter(|c| !has(&settled.closed, c.candidate.id));
-    let closed = settled.closed.iter().filter(|c| !has(before, c.candidate.id));
     impacts
         .chain(released.map(|c| entry(EventKind::Release, &c.candidate, 0.0)))
         .chain(closed.map(|c| entry(EventKind::Close, &c.candidate, 0.0)))
@@ -53,16 +57,13 @@ pub fn entries(world: &World, t: f64, before: &[Closed], settled: &Settled) -> V
 
 /// Bodies tied by closed contacts, in groups of two or more.
 pub fn moving_together(world: &World, closed: &[Closed]) -> Vec<Vec<usize>> {
-    let mut group: Vec<usize> = (0..world.system.bodies.len()).collect();
+    let mut group: Small<usize, 16> = (0..world.system.bodies.len()).collect();
     for contact in closed {
         let (a, b) = world.bodies(&contact.candidate);
         let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
         group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
     }
-    let mut groups: Vec<Vec<usize>> = vec![vec![]; group.len()];
-    for (body, g) in group.iter().enumerate() {
-        groups[*g].push(body);
-    }
-    groups.retain(|g| g.len() > 1);
-    groups
+    let members = |g: usize| (g..group.len()).filter(|&body| group[body] == g).collect::<Vec<_>>();
+    let tied = |g: &usize| group[*g] == *g && group[g + 1..].contains(g);
+    (0..group.len()).filter(tied).map(members).collect()
 }

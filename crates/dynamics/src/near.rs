@@ -50,7 +50,7 @@ pub fn reach_of(row: &Row, speeds: &[f64]) -> f64 {
 pub fn near_touches<'p>(world: &mut World, instant: &Instant, placed: &'p [Placed<'p>]) -> Vec<Near<'p>> {
     let (within, deep) = (TOGETHER * world.system.size, OVERLAP * world.system.size);
     let q = instant.q;
-    let mut found = Vec::new();
+    let mut found = Vec::with_capacity(4);
     for interaction in 0..world.arms.len() {
         let (travelled, _) = world.refresh(interaction, q, 2.0 * deep);
         let (a, b) = world.system.interactions[interaction].bodies;

@@ -8,6 +8,7 @@ use crate::component::{Component, Tolerance};
 use crate::energy::kinetic;
 use crate::halts::{Halts, halted};
 use crate::inertia::Inertia;
+use crate::linear::Small;
 use crate::path::Path;
 use crate::place::is_standing;
 use crate::recorder::Recorder;
@@ -207,7 +208,7 @@ impl<'a> Simulation<'a> {
 
     /// The first thing to happen until `to`: a contact that closes, or a change of the contacts that are closed.
     fn next_event(&mut self, to: f64) -> (f64, Option<Change>) {
-        let watched: Vec<(ContactId, Watch)> = self
+        let watched: Small<(ContactId, Watch), 8> = self
             .closed
             .iter()
             .map(|c| (c.candidate.id, self.watch_closed(c)))

@@ -1,6 +1,7 @@
 //! Contacts at a configuration: evaluated, counted, and listed where they are near enough to matter.
 
 use crate::inertia::Freedom;
+use crate::linear::Small;
 use crate::lists::Lists;
 use crate::path::DrivenPath;
 use crate::sweep::Places;
@@ -217,7 +218,7 @@ impl<'a> World<'a> {
     }
 
     /// Every body at positions `q`.
-    pub fn place_all(&self, q: &[f64]) -> Vec<Placed<'a>> {
+    pub fn place_all(&self, q: &[f64]) -> Small<Placed<'a>> {
         self.system.bodies.iter().map(|body| Placed::new(body, q)).collect()
     }
 

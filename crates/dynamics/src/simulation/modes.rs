@@ -4,6 +4,7 @@ use super::{LOOSEST, MOST_AT_ONCE, Simulation};
 use crate::component::Component;
 use crate::events::entries;
 use crate::flight::{Flight, State};
+use crate::linear::Small;
 use crate::path::Path;
 use crate::run::Mode;
 use crate::settle::{Closed, Instant, Settled, settle};
@@ -15,8 +16,8 @@ impl Simulation<'_> {
     /// Resolves impacts, contact forces and dry friction now, logs what changed, and gives every coordinate its path.
     pub(super) fn resolve(&mut self, change: Option<Change>) {
         self.halt(change);
-        let before = self.v.clone();
-        let mut v = self.v.clone();
+        let before: Small<f64, 8> = Small::from_slice(&self.v);
+        let mut v = before.clone();
         let mut instant = Instant {
             t: self.record.t,
             q: &self.q,
@@ -27,7 +28,7 @@ impl Simulation<'_> {
             chattering: (self.at_once > MOST_AT_ONCE / 2).then_some(f64::INFINITY),
             giving: change.and_then(Change::giving),
         };
-        let sliding = self.world.sliding.clone();
+        let sliding: Small<f64, 8> = Small::from_slice(&self.world.sliding);
         let mut settled = settle(&mut self.world, &instant, &mut v);
         instant.chattering = self.chatter.ends(self.record.t, self.world.system.size, &settled.impulses);
         if instant.chattering.is_some() {
@@ -35,7 +36,7 @@ impl Simulation<'_> {
             settled = settle(&mut self.world, &instant, &mut v);
             settled.add_blow(blow);
         }
-        self.v = v;
+        self.v.copy_from_slice(&v);
         self.record.events.extend(entries(&self.world, self.record.t, &self.closed, &settled));
         self.record.energy.work += settled.work;
         self.record.energy.impacts += settled.loss;
