@@ -82,7 +82,7 @@ impl FeatureTree {
     }
 }
 
-/// Sorts features along the direction in which they lie further apart; returns how many are the first half.
+/// Parts features along the direction in which they lie further apart; returns how many are the first half.
 fn halve(features: &[Feature], chosen: &mut [usize]) -> usize {
     let center = |i: usize| features[i].center;
     let spread = |key: fn(Vec2) -> f64| {
@@ -90,6 +90,8 @@ fn halve(features: &[Feature], chosen: &mut [usize]) -> usize {
         keys.clone().fold(f64::MIN, f64::max) - keys.fold(f64::MAX, f64::min)
     };
     let key: fn(Vec2) -> f64 = if spread(|c| c.x) >= spread(|c| c.y) { |c| c.x } else { |c| c.y };
-    chosen.sort_by(|&i, &j| key(center(i)).total_cmp(&key(center(j))).then(i.cmp(&j)));
-    chosen.len() / 2
+    let half = chosen.len() / 2;
+    let order = |i: &usize, j: &usize| key(center(*i)).total_cmp(&key(center(*j))).then(i.cmp(j));
+    chosen.select_nth_unstable_by(half, order);
+    half
 }
