@@ -24,9 +24,16 @@ def test_the_motion_is_the_same_to_the_last_bit(model, contact):
     assert mapped.positions == direct.positions
 
 
+def test_what_is_predicted_is_the_same(mechanism):
+    direct, mapped = (ms.predict(mechanism, search=search) for search in ("direct", "map"))
+    assert mapped.to_json() == direct.to_json()
+
+
 def test_the_command_takes_either(cli):
     model = ROOT / "examples" / "ratchet" / "ratchet.padl"
     runs = [cli("simulate", model, "--until", "2", "--json", *more) for more in ((), ("--search", "map"))]
     assert runs[0].stdout.split('"stats"')[0] == runs[1].stdout.split('"stats"')[0] != ""
+    told = [cli("predict", model, "--json", *more).stdout for more in ((), ("--search", "map"))]
+    assert told[0] == told[1] != ""
     wrong = cli("simulate", model, "--until", "2", "--search", "cleverly")
     assert (wrong.returncode, wrong.stdout) == (2, "")

@@ -129,6 +129,7 @@ class Mechanism:
         p_s_v_match: float = 0.02,
         max_minima: int = ...,
         max_time: float = ...,
+        search: str = "direct",
         progress: Callable[[float], bool] | None = None,
     ) -> Prediction:
         """Run until it is known what repeats (Gelsey 1995, Algorithm 12, corrected).

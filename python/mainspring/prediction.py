@@ -120,6 +120,7 @@ def predict(
     state_match: float = 0.02,
     max_minima: int = MAX_MINIMA,
     max_time: float = MAX_TIME,
+    search: Literal["direct", "map"] = "direct",
     progress: Callable[[float], bool] | None = None,
 ) -> Prediction: ...
 @overload
@@ -138,6 +139,7 @@ def predict(
     state_match: float = 0.02,
     max_minima: int = MAX_MINIMA,
     max_time: float = MAX_TIME,
+    search: Literal["direct", "map"] = "direct",
     progress: Callable[[float], bool] | None = None,
 ) -> Comparison[Prediction]: ...
 def predict(
@@ -155,13 +157,14 @@ def predict(
     state_match: float = 0.02,
     max_minima: int = MAX_MINIMA,
     max_time: float = MAX_TIME,
+    search: Literal["direct", "map"] = "direct",
     progress: Callable[[float], bool] | None = None,
 ) -> Prediction | Comparison[Prediction]:
     """Simulate just long enough to know what repeats, or that nothing does.
 
     Parameters
     ----------
-    contact, contact_constants, rtol, positions, velocities, progress
+    contact, contact_constants, rtol, positions, velocities, search, progress
         As for `simulate`.
     confirm
         P_confirm: a pattern must hold for so many more repetitions.
@@ -200,6 +203,7 @@ def predict(
             p_s_v_match=state_match,
             max_minima=max_minima,
             max_time=float(max_time),
+            search=search,
             progress=progress,
         )
         return core, prediction_of(core)

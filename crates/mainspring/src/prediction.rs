@@ -3,7 +3,7 @@
 use crate::contact_model::{ContactChoice, constants};
 use crate::options::check_prediction;
 use crate::sentences::sentences;
-use crate::simulation::{SimulationOptions, SimulationResult};
+use crate::simulation::{ContactSearch, SimulationOptions, SimulationResult};
 use crate::words::clean;
 use mainspring_behavior::{Basis, Hypothesis, NoPattern, Outcome, Pattern, PredictOptions};
 use mainspring_mechanism::Mechanism;
@@ -17,6 +17,8 @@ pub struct PredictionOptions {
     pub contact: ContactChoice,
     /// The search; its model of contact and its tolerance are taken from `contact`.
     pub search: PredictOptions,
+    /// Where contacts come from.
+    pub source: ContactSearch,
 }
 
 /// A prediction with the run it is based on.
@@ -40,10 +42,10 @@ pub fn predict(
 ) -> Result<PredictionResult, Error> {
     check_prediction(&options.search)?;
     let system = Arc::new(mechanism.system()?);
-    let source = system.direct_search();
+    let source = options.source.source(&system);
     let (contact, rtol) = options.contact.resolve(&system)?;
     let options = PredictOptions { contact, rtol, ..options.search.clone() };
-    let found = mainspring_behavior::predict(&system, &source, &options, progress);
+    let found = mainspring_behavior::predict(&system, &*source, &options, progress);
     let simulation = SimulationOptions {
         until: found.run.t,
         range_fraction: options.matching.range_fraction,

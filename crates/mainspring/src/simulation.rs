@@ -34,7 +34,7 @@ impl ContactSearch {
         }
     }
 
-    fn source<'a>(self, system: &'a System) -> Box<dyn ContactSource + 'a> {
+    pub(crate) fn source<'a>(self, system: &'a System) -> Box<dyn ContactSource + 'a> {
         match self {
             Self::Direct => Box::new(system.direct_search()),
             Self::Map => Box::new(MapSource::new(system)),

@@ -157,7 +157,7 @@ impl PyMechanism {
     /// Run until it is known what repeats.
     #[pyo3(signature = (*, contact = "rigid", contact_constants = None, rtol = None, positions = vec![], velocities = vec![], p_confirm = 2,
         p_range_fraction = 1e-5, p_ignore = 4, p_t_match = 0.01, p_s_v_match = 0.02, max_minima = 1000,
-        max_time = 1e5, progress = None))]
+        max_time = 1e5, search = "direct", progress = None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of the Python method")]
     fn predict(
         &self,
@@ -174,6 +174,7 @@ impl PyMechanism {
         p_s_v_match: f64,
         max_minima: i64,
         max_time: f64,
+        search: &str,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<PyPrediction> {
         let contact = contact_of(contact, contact_constants, rtol)?;
@@ -186,8 +187,9 @@ impl PyMechanism {
             state_match: p_s_v_match,
         };
         let max_minima = count(max_minima, "--max-minima")?;
+        let source = search_of(search)?;
         let search = PredictOptions { matching, max_minima, max_time, ..PredictOptions::default() };
-        let options = PredictionOptions { contact, search };
+        let options = PredictionOptions { contact, search, source };
         let found = watch(py, progress, |progress| predict(&mechanism, &options, progress))?;
         Ok(PyPrediction(Arc::new(found.map_err(bad_input)?)))
     }

@@ -131,12 +131,7 @@ def _simulate(commands: "Commands[Parser]") -> None:
     command.add_argument(
         "--until", metavar="T", required=True, help="end of the run, in the file's time unit"
     )
-    command.add_argument(
-        "--search",
-        choices=["direct", "map"],
-        default="direct",
-        help="contacts from trees of features or from maps of each pair: the same motion (default: direct)",
-    )
+    _search(command)
     add = command.add_argument_group("what to keep").add_argument
     add("--forces", action="store_true", help="ask for contact impulses and forces")
     add("--out", metavar="DIR", help="write result.json and trajectory.npz there")
@@ -146,11 +141,21 @@ def _simulate(commands: "Commands[Parser]") -> None:
     _json(command)
 
 
+def _search(command: Parser) -> None:
+    command.add_argument(
+        "--search",
+        choices=["direct", "map"],
+        default="direct",
+        help="contacts from trees of features or from maps of each pair: the same motion (default: direct)",
+    )
+
+
 def _predict(commands: "Commands[Parser]") -> None:
     example = "mainspring predict escapement.padl --set gap=36 --report escapement.html"
     command = _command(commands, "predict", "say what the machine will do for ever", example)
     _machine(command)
     _start(command)
+    _search(command)
     add = command.add_argument_group("the search for a pattern (Gelsey 1995, Algorithm 12)").add_argument
     add("--confirm", metavar="N", default="2", help="repetitions that must confirm it (default: 2)")
     add(

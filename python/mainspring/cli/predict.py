@@ -21,7 +21,7 @@ def run(options: Namespace) -> None:
     mechanism = opening.mechanism(options)
     start = opening.start(options, mechanism)
     with watch("looking for what repeats") as progress:
-        result = ms.predict(mechanism, progress=progress, **contact, **start, **chosen)
+        result = ms.predict(mechanism, search=options.search, progress=progress, **contact, **start, **chosen)
     opening.warn(ms.find_pairs(mechanism).warnings)
     if options.report:
         from mainspring.report import page
