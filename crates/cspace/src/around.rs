@@ -6,7 +6,7 @@
 //! centres are `(r ± s) n ± s (n' − n) + e` apart, in length within `e + rs θ²/|r ± s|` of |r ± s| and in direction within
 //! `asin((s θ + e)/|r ± s|)` of n. The motion of the centres bounds both too, better where arcs are small.
 
-use crate::moving::Moving;
+use crate::moving::{Kind, Moving};
 use crate::pairs::{Cell, Part};
 use crate::reduce::relative;
 use crate::shape::Shape;
@@ -15,30 +15,36 @@ use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
 
 /// A box of configurations: how the bodies lie against each other at its centre, and how far they move within it.
-pub(crate) struct Around<'a> {
-    moving: &'a [Moving; 2],
+pub(crate) struct Around {
     /// second_from_first and first_from_second at the centre.
     pub rel: [Pose; 2],
     half: [f64; 2],
+    /// How far each body's points move: so much per unit of distance from its origin, and so much wherever they are.
+    moves: [(f64, f64); 2],
     /// How far each body turns (radians).
     turn: [f64; 2],
     /// What counts as rounding (length).
     pub little: f64,
 }
 
-impl<'a> Around<'a> {
+impl Around {
     /// For bodies that move like this in a machine of this size.
-    pub fn new(moving: &'a [Moving; 2], cell: &Cell, size: f64) -> Self {
+    pub fn new(moving: &[Moving; 2], cell: &Cell, size: f64) -> Self {
         let poses = [0, 1].map(|k| moving[k].place(cell.center[k]));
         let rel = [relative(&poses[0], &poses[1]), relative(&poses[1], &poses[0])];
         let turn = [0, 1].map(|k| if moving[k].turns() { cell.half[k] } else { 0.0 });
-        Around { moving, rel, half: cell.half, turn, little: 1e-9 * size }
+        let moves = [0, 1].map(|k| match moving[k].kind {
+            Kind::Turn => (cell.half[k], 0.0),
+            Kind::Slide => (0.0, cell.half[k]),
+            Kind::Still => (0.0, 0.0),
+        });
+        Around { rel, half: cell.half, moves, turn, little: 1e-9 * size }
     }
 
     /// How far points of both bodies move against each other that lie at these distances from their origins, give or take
     /// the second.
     pub fn motion(&self, arms: [(f64, f64); 2]) -> f64 {
-        let one = |k: usize| self.half[k] * self.moving[k].lever_of(arms[k].0, arms[k].1);
+        let one = |k: usize| self.moves[k].0 * (arms[k].0 + arms[k].1).max(0.0) + self.moves[k].1;
         one(0) + one(1)
     }
 
@@ -47,9 +53,9 @@ impl<'a> Around<'a> {
         self.rel[0].apply(m.center) - n.center
     }
 
-    /// May features under two tree nodes touch?
+    /// May features under two tree nodes touch? A disc moves as its centre does, whatever turns within it.
     pub fn near(&self, m: &Node, n: &Node) -> bool {
-        let reach = m.radius + n.radius + self.motion([(m.arm, m.radius), (n.arm, n.radius)]);
+        let reach = m.radius + n.radius + self.motion([(m.arm, 0.0), (n.arm, 0.0)]);
         let apart = self.apart(m, n);
         apart.dot(apart) <= reach * reach
     }

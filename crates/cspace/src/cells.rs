@@ -54,12 +54,10 @@ pub(crate) fn search(
     if catalogue.trees.iter().any(|t| t.nodes.is_empty()) {
         return Ok(work);
     }
-    let axes = &catalogue.frame.axes;
-    let half = [0, 1].map(|k| 0.5 * axes[k].length);
-    let center = [0, 1].map(|k| axes[k].start + half[k]);
+    let whole = Cell::whole(&catalogue.frame.axes);
     let levers = [0, 1].map(|k| catalogue.parts[k].iter().map(|p| p.lever).fold(0.0, f64::max));
     let mut done = 0.0;
-    let mut pending: Vec<(Cell, Front)> = vec![(Cell { center, half }, vec![(0, 0)])];
+    let mut pending: Vec<(Cell, Front)> = vec![(whole, vec![(0, 0)])];
     while let Some((cell, front)) = pending.pop() {
         work.cells += 1;
         if work.cells > budget {
@@ -74,7 +72,7 @@ pub(crate) fn search(
         let motion = [levers[0] * cell.half[0], levers[1] * cell.half[1]];
         let Some(front) = look(catalogue, proofs, cuts, &mut work, (&cell, front, motion[0] + motion[1]))
         else {
-            done += cell.half[0] * cell.half[1] / (half[0] * half[1]);
+            done += cell.half[0] * cell.half[1] / (whole.half[0] * whole.half[1]);
             continue;
         };
         let axis = usize::from(motion[1] > motion[0]);

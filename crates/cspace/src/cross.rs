@@ -55,44 +55,65 @@ impl Graphs<'_> {
         a - b
     }
 
-    /// Sign of dφ/du.
+    /// dφ/du.
     fn slope(&self, u: f64) -> f64 {
+        self.slope_at(u, self.values(u))
+    }
+
+    /// dφ/du where both values are known.
+    fn slope_at(&self, u: f64, (first, second): (f64, f64)) -> f64 {
         let frame = self.catalogue.frame;
-        let slope = |(element, eq): (&Element, &Equation)| {
-            let v = element.v_at(eq, frame, u);
+        let slope = |eq: &Equation, v: f64| {
             let g = eq.value(&frame.moving, u, v);
             -g.fu / g.fv
         };
-        let d = slope(self.first) - slope(self.second);
+        let d = slope(self.first.1, first) - slope(self.second.1, second);
         if d.is_nan() { 0.0 } else { d }
     }
 
-    /// The zero of `f` between a and b, where it has opposite signs (Illinois' false position with bisection).
+    /// A little inside the range where folds may end it: there slopes are infinite.
+    fn slope_within(&self, (u, values): (f64, (f64, f64)), inner: f64) -> (f64, f64) {
+        let ends = |e: &Element| u == e.u[0] || u == e.u[1];
+        if ends(self.first.0) || ends(self.second.0) {
+            (u + inner, self.slope(u + inner))
+        } else {
+            (u, self.slope_at(u, values))
+        }
+    }
+
+    /// The zero of `f` between a and b, where it has opposite signs: inverse quadratic interpolation where that is safe, else
+    /// bisection (Chandrupatla 1997).
     fn zero(&self, f: impl Fn(f64) -> f64, (mut a, mut fa): (f64, f64), (mut b, mut fb): (f64, f64)) -> f64 {
-        for k in 0..80 {
-            if (b - a).abs() <= 4e-16 * (1.0 + a.abs()) {
+        let mut part = 0.5;
+        for _ in 0..120 {
+            let (u, width) = (a + part * (b - a), (b - a).abs());
+            let fu = f(u);
+            // What the new value replaces is kept for the interpolation.
+            let (c, fc) = if (fu > 0.0) == (fa > 0.0) { (a, fa) } else { (b, fb) };
+            if (fu > 0.0) != (fa > 0.0) {
+                (b, fb) = (a, fa);
+            }
+            (a, fa) = (u, fu);
+            let little = 2e-16 * (1.0 + a.abs());
+            if fu == 0.0 || (b - a).abs() <= 2.0 * little || (b - a).abs() == width {
                 break;
             }
-            let secant = (a * fb - b * fa) / (fb - fa);
-            let middle = 0.5 * (a + b);
-            let u = if k % 3 == 2 || !(secant > a.min(b) && secant < a.max(b)) { middle } else { secant };
-            let fu = f(u);
-            if fu == 0.0 {
-                return u;
-            }
-            if (fu > 0.0) == (fb > 0.0) {
-                fa *= 0.5;
-                (b, fb) = (u, fu);
+            let (x, y) = ((a - b) / (c - b), (fa - fb) / (fc - fb));
+            let safe = y * y < x && (1.0 - y) * (1.0 - y) < 1.0 - x;
+            part = if safe {
+                fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
             } else {
-                (a, fa, b, fb) = (b, fb, u, fu);
-            }
+                0.5
+            };
+            let least = (little / (b - a).abs()).min(0.5);
+            part = part.clamp(least, 1.0 - least);
         }
-        b
+        if fa.abs() <= fb.abs() { a } else { b }
     }
 
     /// Zeros of φ in [l, r].
     fn zeros(&self, l: f64, r: f64, out: &mut Vec<f64>) {
-        let at = |k: usize| l + (r - l) * k as f64 / PARTS as f64;
+        let at = |k: usize| if k == PARTS { r } else { l + (r - l) * k as f64 / PARTS as f64 };
         let mut left = (l, self.values(l));
         let mut near = 0;
         for k in 1..=PARTS {
@@ -126,8 +147,7 @@ impl Graphs<'_> {
         }
         // Equal signs: a dip to zero between has two zeros, or one if they only touch.
         let inner = 1e-9 * (r.0 - l.0);
-        let (a, b) = (l.0 + inner, r.0 - inner);
-        let (da, db) = (self.slope(a), self.slope(b));
+        let ((a, da), (b, db)) = (self.slope_within(l, inner), self.slope_within(r, -inner));
         let dips = if fl > 0.0 { da < 0.0 && db > 0.0 } else { da > 0.0 && db < 0.0 };
         if !dips {
             return;

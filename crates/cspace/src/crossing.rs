@@ -46,7 +46,7 @@ impl Crossed {
 
 /// Leaves whose spans cross throughout, if they are found soon.
 fn find(sections: [&Section; 2], ignored: &Ignored, around: &Around, effort: usize) -> Option<(u32, u32)> {
-    let trees = sections.map(|s| &s.tree);
+    let trees = sections.map(|s| &s.close().tree);
     let mut pending = if trees.iter().any(|t| t.nodes.is_empty()) { vec![] } else { vec![(0, 0)] };
     for _ in 0..effort {
         let (i, j) = pending.pop()?;
@@ -64,7 +64,8 @@ fn find(sections: [&Section; 2], ignored: &Ignored, around: &Around, effort: usi
 }
 
 /// May spans under two nodes cross, and are they long enough to do so throughout?
-fn may_cross([a, b]: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bool {
+fn may_cross(sections: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bool {
+    let [a, b] = sections.map(Section::close);
     let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
     let (reach, apart) = (m.radius + n.radius, around.apart(m, n));
     let shorter = a.greatest[i as usize].min(b.greatest[j as usize]);
@@ -74,7 +75,7 @@ fn may_cross([a, b]: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bool
 
 /// Do the spans of two leaves cross throughout the box?
 fn cross([a, b]: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bool {
-    let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
+    let (m, n) = (&a.close().tree.nodes[i as usize], &b.close().tree.nodes[j as usize]);
     let (s, t) = (m.link as usize, n.link as usize);
     if a.features[s] == usize::MAX || b.features[t] == usize::MAX {
         return false;

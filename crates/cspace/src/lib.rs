@@ -41,6 +41,7 @@ mod transpose;
 mod tree;
 mod walk;
 mod way;
+mod within;
 mod witness;
 
 pub use cells::Work;

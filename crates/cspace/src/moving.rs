@@ -133,13 +133,8 @@ impl Moving {
 
     /// Greatest speed per unit of u of the points within `radius` of the local point `center`.
     pub fn lever(&self, center: Vec2, radius: f64) -> f64 {
-        self.lever_of(center.norm(), radius)
-    }
-
-    /// The same by the distance of the centre from the origin, `arm`.
-    pub fn lever_of(&self, arm: f64, radius: f64) -> f64 {
         match self.kind {
-            Kind::Turn => (arm + radius).max(0.0),
+            Kind::Turn => center.norm() + radius,
             Kind::Slide => 1.0,
             Kind::Still => 0.0,
         }

@@ -1,9 +1,11 @@
 //! Feature pairs that can touch, found cell by cell: the curves made for them are kept.
 
+use crate::domain::Axis;
 use crate::element::{Element, Frame, Scratch, elements};
 use crate::equation::Equation;
 use crate::shape::Shape;
 use crate::tree::Discs;
+use crate::within::Within;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::GapKind;
 use std::collections::HashMap;
@@ -42,6 +44,12 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
+    /// The whole domain.
+    pub fn whole(axes: &[Axis; 2]) -> Self {
+        let half = [0, 1].map(|k| 0.5 * axes[k].length);
+        Cell { center: [0, 1].map(|k| axes[k].start + half[k]), half }
+    }
+
     pub fn range(&self, axis: usize) -> (f64, f64) {
         (self.center[axis] - self.half[axis], self.center[axis] + self.half[axis])
     }
@@ -64,9 +72,14 @@ impl<'a> Catalogue<'a> {
     pub fn new(
         frame: &'a Frame,
         parts: [&'a [Part]; 2],
+        within: &Within,
         kind: &'a dyn Fn(usize, usize) -> Option<GapKind>,
     ) -> Self {
-        let trees = parts.map(|p| Discs::new(&p.iter().map(|p| p.disc).collect::<Vec<_>>()));
+        let trees = [0, 1].map(|k| {
+            let discs: Vec<_> = parts[k].iter().map(|p| p.disc).collect();
+            let chosen = (0..discs.len() as u32).filter(|&i| within.reach(k, discs[i as usize]));
+            Discs::over(&discs, chosen.collect())
+        });
         Catalogue {
             frame,
             parts,

@@ -8,7 +8,8 @@
 use crate::cross::Cuts;
 use crate::element::{Element, Frame};
 use crate::pairs::Catalogue;
-use crate::region::Regions;
+use crate::region::{Met, Regions};
+use std::cell::RefCell;
 
 /// How far off its contact a stretch is tested: a gap, relative to the size.
 pub(crate) const HAIR: f64 = 1e-9;
@@ -37,14 +38,19 @@ pub(crate) struct Judge<'a> {
     pub regions: &'a Regions,
     /// Greatest levers of both bodies, at least a bit of the size.
     pub levers: [f64; 2],
+    met: RefCell<Met>,
 }
 
-impl Judge<'_> {
+impl<'a> Judge<'a> {
+    pub fn new(frame: &'a Frame, regions: &'a Regions, levers: [f64; 2]) -> Self {
+        Judge { frame, regions, levers, met: RefCell::default() }
+    }
+
     /// Do the bodies overlap at this configuration?
     pub fn blocked(&self, u: f64, v: f64) -> bool {
-        let m = &self.frame.moving;
-        let poses = [m[0].place(u), m[1].place(v)];
-        self.regions.overlap(&poses)
+        let (m, [au, av]) = (&self.frame.moving, &self.frame.axes);
+        let poses = [m[0].place(au.wrap(u).0), m[1].place(av.wrap(v).0)];
+        self.regions.overlap_again(&poses, &mut self.met.borrow_mut())
     }
 
     /// The side of an element on which it is free at a configuration on it; none if it is blocked.

@@ -7,15 +7,15 @@ use crate::witness::Witnesses;
 
 /// Proofs are looked for in proportion to the feature pairs that one would save, and to how often it was found lately: so
 /// many pairs of tree nodes for each feature pair at certain success. Crossing boundaries first,
-const CROSSINGS: f64 = 60.0;
+const CROSSINGS: f64 = 30.0;
 /// then overlapping discs.
 const DISCS: f64 = 100.0;
 /// Success is never taken to be rarer than this part of the boxes,
 const RARE: f64 = 0.02;
 /// and to begin with to be this part.
-const AT_FIRST: f64 = 0.25;
+const AT_FIRST: f64 = 0.1;
 /// Boxes over which success is averaged.
-const MEMORY: f64 = 100.0;
+const MEMORY: f64 = 15.0;
 
 /// How often a kind of proof was found lately.
 struct Success(f64);

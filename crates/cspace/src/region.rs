@@ -4,13 +4,18 @@
 //! outer boundary of a component of their common interior is then a whole loop of one of them. So the test is: boundaries
 //! nearer than rounding, or a point of a loop inside.
 
+use crate::element::Frame;
 use crate::moving::Moving;
 use crate::reduce::relative;
 use crate::section::Section;
 use crate::span::Span;
 use crate::tree::Discs;
+use crate::within::Within;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
+
+/// Pairs of spans remembered.
+const REMEMBERED: usize = 8;
 
 /// Two spans that never move against each other and touch: no overlap.
 pub(crate) type Ignored = Vec<(u32, u32)>;
@@ -26,14 +31,19 @@ pub(crate) struct Regions {
 }
 
 impl Regions {
-    pub fn new(sections: [Vec<Section>; 2], moving: &[Moving; 2], size: f64) -> Self {
+    pub fn new(sections: [Vec<Section>; 2], frame: &Frame) -> Self {
+        let size = frame.size;
         let rounding = 1e-12 * size;
+        let within = Within::new(frame, sections.each_ref().map(Vec::as_slice));
+        let [first, second] = sections;
+        let sections: [Vec<Section>; 2] = [(0, first), (1, second)]
+            .map(|(k, all)| all.into_iter().map(|s| s.within(|disc| within.reach(k, disc))).collect());
         let mut facing = Vec::new();
         for (i, a) in sections[0].iter().enumerate() {
             for (j, b) in sections[1].iter().enumerate() {
                 let common = a.heights.1.min(b.heights.1) - a.heights.0.max(b.heights.0);
                 if common > 1e-9 * size {
-                    facing.push((i, j, forever(a, b, moving, size)));
+                    facing.push((i, j, forever(a, b, &frame.moving, size)));
                 }
             }
         }
@@ -42,14 +52,33 @@ impl Regions {
 
     /// Do the bodies overlap at these poses?
     pub fn overlap(&self, poses: &[Pose; 2]) -> bool {
+        self.overlap_again(poses, &mut Met::default())
+    }
+
+    /// The same; spans that met before are tried first.
+    pub fn overlap_again(&self, poses: &[Pose; 2], met: &mut Met) -> bool {
         let rel = relative(&poses[0], &poses[1]);
         let back = relative(&poses[1], &poses[0]);
-        self.facing.iter().any(|(i, j, ignored)| {
+        if met.lately.iter().flatten().any(|&(f, spans)| self.touch(&rel, f, spans)) {
+            return true;
+        }
+        self.facing.iter().enumerate().any(|(f, (i, j, ignored))| {
             let (a, b) = (&self.sections[0][*i], &self.sections[1][*j]);
-            meet(a, b, &rel, self.rounding, ignored)
-                || a.reaches_into(b, &rel, ignored, self.rounding)
+            if let Some(spans) = meeting(a, b, &rel, self.rounding, ignored) {
+                met.remember(f, spans);
+                return true;
+            }
+            a.reaches_into(b, &rel, ignored, self.rounding)
                 || b.reaches_into(a, &back, ignored, self.rounding)
         })
+    }
+
+    /// Do two spans of two facing sections meet?
+    fn touch(&self, rel: &Pose, facing: usize, (s, t): (usize, usize)) -> bool {
+        let (i, j, _) = &self.facing[facing];
+        let (a, b) = (&self.sections[0][*i], &self.sections[1][*j]);
+        a.slats[s].apart(rel, &b.slats[t]) <= self.rounding
+            && a.spans[s].placed(rel).distance(&b.spans[t]) <= self.rounding
     }
 
     /// Do the bodies overlap by no more than `little` (a length): free if moved by that in some direction?
@@ -69,7 +98,7 @@ impl Regions {
         for (i, j, ignored) in &self.facing {
             let (a, b) = (&self.sections[0][*i], &self.sections[1][*j]);
             let mut least = best.map_or(f64::INFINITY, |b| b.0);
-            search(a, b, &rel, ignored, |distance, spans| {
+            search([(a, &a.all.tree), (b, &b.all.tree)], &rel, ignored, |distance, spans| {
                 if distance < least {
                     least = distance;
                     best = Some((distance, [(*i, spans.0), (*j, spans.1)]));
@@ -81,24 +110,42 @@ impl Regions {
     }
 }
 
-fn meet(a: &Section, b: &Section, rel: &Pose, rounding: f64, ignored: &Ignored) -> bool {
-    let mut met = false;
-    search(a, b, rel, ignored, |distance, _| {
-        met |= distance <= rounding;
-        if met { -1.0 } else { 2.0 * rounding }
+/// Spans that met when bodies were found to overlap lately, by pair of sections: likely to meet in the next configuration too.
+#[derive(Debug, Default)]
+pub(crate) struct Met {
+    lately: [Option<(usize, (usize, usize))>; REMEMBERED],
+    next: usize,
+}
+
+impl Met {
+    fn remember(&mut self, facing: usize, spans: (usize, usize)) {
+        self.lately[self.next % REMEMBERED] = Some((facing, spans));
+        self.next += 1;
+    }
+}
+
+/// Spans of two sections that meet, if any do.
+fn meeting(a: &Section, b: &Section, rel: &Pose, rounding: f64, ignored: &Ignored) -> Option<(usize, usize)> {
+    let mut met = None;
+    search([(a, &a.close().tree), (b, &b.close().tree)], rel, ignored, |distance, spans| {
+        if distance <= rounding {
+            met = Some(spans);
+        }
+        if met.is_some() { -1.0 } else { 2.0 * rounding }
     });
     met
 }
 
-/// Visits pairs of spans that may be nearer than a reach; `visit` gets their distance and returns the new reach.
+/// Visits pairs of spans that may be nearer than a reach; `visit` gets their distance and returns the new reach. Trees
+/// over spans of their sections.
 fn search(
-    a: &Section,
-    b: &Section,
+    [(a, ta), (b, tb)]: [(&Section, &Discs); 2],
     rel: &Pose,
     ignored: &Ignored,
     mut visit: impl FnMut(f64, (usize, usize)) -> f64,
 ) {
-    let (ta, tb) = (&a.tree.nodes, &b.tree.nodes);
+    let trees = [ta, tb];
+    let (ta, tb) = (&ta.nodes, &tb.nodes);
     if ta.is_empty() || tb.is_empty() {
         return;
     }
@@ -119,15 +166,21 @@ fn search(
             if excluded || ignored.contains(&(m.link, n.link)) {
                 continue;
             }
-            reach = visit(a.spans[s].placed(rel).distance(&b.spans[t]), (s, t));
+            if a.slats[s].apart(rel, &b.slats[t]) < reach {
+                reach = visit(a.spans[s].placed(rel).distance(&b.spans[t]), (s, t));
+            }
             continue;
         }
-        let mut next = Discs::halved([&a.tree, &b.tree], (i, j)).map(|(k, l)| (apart(k, l), k, l));
+        let [(k, l), (m, n)] = Discs::halved(trees, (i, j));
+        let (first, second) = (apart(k, l), apart(m, n));
         // The nearer one is looked at first.
-        if next[0].0 < next[1].0 {
-            next.swap(0, 1);
+        let (nearer, farther) =
+            if first <= second { ((first, k, l), (second, m, n)) } else { ((second, m, n), (first, k, l)) };
+        for next in [farther, nearer] {
+            if next.0 < reach {
+                pending.push(next);
+            }
         }
-        pending.extend(next);
     }
 }
 

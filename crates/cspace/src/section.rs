@@ -1,7 +1,7 @@
 //! One layer of a body: its boundary, which points are inside, which boundary point is nearest.
 
 use crate::region::Ignored;
-use crate::span::Span;
+use crate::span::{Slat, Span};
 use crate::tree::Discs;
 use mainspring_geometry::{Layer, Segment, Vec2};
 use mainspring_mechanism::Pose;
@@ -11,16 +11,31 @@ use mainspring_mechanism::Pose;
 pub(crate) struct Section {
     pub heights: (f64, f64),
     pub spans: Vec<Span>,
+    pub slats: Vec<Slat>,
     /// Index of the feature that each span is (`usize::MAX` if it takes no part in contact).
     pub features: Vec<usize>,
     /// Material inside the circle (arcs), by span.
     pub convex: Vec<bool>,
-    /// Over the spans.
+    pub all: Cover,
+    /// Of spans that the other body can reach; none if that is all of them.
+    close: Option<Cover>,
+    /// Three points of each loop that takes part in contact.
+    points: Vec<Vec2>,
+}
+
+/// A tree over spans.
+#[derive(Clone, Debug)]
+pub(crate) struct Cover {
     pub tree: Discs,
     /// Greatest radius of a span's disc under each node.
     pub greatest: Vec<f64>,
-    /// Three points of each loop that takes part in contact.
-    points: Vec<Vec2>,
+}
+
+impl Cover {
+    fn over(discs: &[(Vec2, f64)], chosen: Vec<u32>) -> Self {
+        let tree = Discs::over(discs, chosen);
+        Cover { greatest: tree.greatest(|k| discs[k as usize].1), tree }
+    }
 }
 
 impl Section {
@@ -46,27 +61,36 @@ impl Section {
             points.extend(point.into_iter().flatten());
         }
         let discs: Vec<_> = spans.iter().map(Span::disc).collect();
-        let tree = Discs::new(&discs);
-        Section {
-            heights: (layer.bottom, layer.top),
-            greatest: tree.greatest(|k| discs[k as usize].1),
-            tree,
-            spans,
-            features,
-            convex,
-            points,
-        }
+        let all = Cover::over(&discs, (0..discs.len() as u32).collect());
+        let slats = spans.iter().map(Span::slat).collect();
+        let heights = (layer.bottom, layer.top);
+        Section { heights, spans, slats, features, convex, all, close: None, points }
+    }
+
+    /// The same, where the other body can only reach what lies in some discs.
+    pub fn within(mut self, reach: impl Fn((Vec2, f64)) -> bool) -> Self {
+        let discs: Vec<_> = self.spans.iter().map(Span::disc).collect();
+        let chosen: Vec<u32> = (0..discs.len() as u32)
+            .filter(|&i| self.features[i as usize] != usize::MAX && reach(discs[i as usize]))
+            .collect();
+        self.close = (chosen.len() < discs.len()).then(|| Cover::over(&discs, chosen));
+        self
+    }
+
+    /// Over the spans that may meet the other body.
+    pub fn close(&self) -> &Cover {
+        self.close.as_ref().unwrap_or(&self.all)
     }
 
     /// Is the point inside? Counts crossings of a ray towards +x.
     pub fn contains(&self, p: Vec2) -> bool {
         let mut inside = false;
         let mut pending = vec![0u32];
-        if self.tree.nodes.is_empty() {
+        if self.all.tree.nodes.is_empty() {
             return false;
         }
         while let Some(i) = pending.pop() {
-            let node = &self.tree.nodes[i as usize];
+            let node = &self.all.tree.nodes[i as usize];
             let out = (node.center.y - p.y).abs() > node.radius || node.center.x + node.radius < p.x;
             if out {
                 continue;
@@ -74,7 +98,7 @@ impl Section {
             if node.leaf {
                 inside ^= crossings(&self.spans[node.link as usize], p) % 2 == 1;
             } else {
-                pending.extend(self.tree.children(i));
+                pending.extend(self.all.tree.children(i));
             }
         }
         inside
@@ -85,7 +109,7 @@ impl Section {
     /// The boundary point nearest to `p`, with its distance.
     pub fn nearest_to(&self, p: Vec2) -> (Vec2, f64) {
         let mut best = (Vec2::default(), f64::INFINITY);
-        let nodes = &self.tree.nodes;
+        let nodes = &self.all.tree.nodes;
         let bound = |i: u32| (nodes[i as usize].center - p).norm() - nodes[i as usize].radius;
         let mut pending = if nodes.is_empty() { vec![] } else { vec![(bound(0), 0u32)] };
         while let Some((least, i)) = pending.pop() {
@@ -101,7 +125,7 @@ impl Section {
                 }
                 continue;
             }
-            let mut next = self.tree.children(i).map(|k| (bound(k), k));
+            let mut next = self.all.tree.children(i).map(|k| (bound(k), k));
             if next[0].0 < next[1].0 {
                 next.swap(0, 1);
             }

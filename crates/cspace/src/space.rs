@@ -19,6 +19,7 @@ use crate::reduce::{Reduced, reduce};
 use crate::region::Regions;
 use crate::slabs::{Atlas, Slabs, build};
 use crate::symmetry;
+use crate::within::Within;
 use crate::witness::Witnesses;
 use mainspring_mechanism::System;
 use std::sync::{Arc, OnceLock};
@@ -94,7 +95,7 @@ impl ConfigurationSpace {
             axes.push(axis(k, &reduced, &parts, options.windows[k], repeats[k], name)?);
         }
         let frame = Frame { moving: reduced.moving, axes: [axes[0], axes[1]], size: system.size };
-        let regions = Regions::new(sections, &frame.moving, system.size);
+        let regions = Regions::new(sections, &frame);
         Made { system, coordinates, bodies, reduced, contact, frame, regions, parts, repeats }
             .finish(options.budget, progress)
     }
@@ -145,7 +146,8 @@ struct Made<'a> {
 impl Made<'_> {
     fn finish(self, budget: usize, progress: &Progress) -> Result<ConfigurationSpace, SpaceError> {
         let size = self.frame.size;
-        let witnesses = Witnesses::new(&self.regions, self.repeats, size);
+        let within = Within::new(&self.frame, self.regions.sections.each_ref().map(Vec::as_slice));
+        let witnesses = Witnesses::new(&self.regions, self.repeats, &within, size);
         if let Some(k) = witnesses.thin() {
             return Err(SpaceError::Thin { body: self.system.bodies[self.reduced.bodies[k]].name.clone() });
         }
@@ -156,14 +158,14 @@ impl Made<'_> {
         let levers =
             [0, 1].map(|k| self.parts[k].iter().map(|p| p.lever).fold(1e-3 * size.min(1.0), f64::max));
         let kind = |i: usize, j: usize| self.contact.kind(i, j);
-        let mut catalogue = Catalogue::new(&self.frame, [&self.parts[0], &self.parts[1]], &kind);
+        let mut catalogue = Catalogue::new(&self.frame, [&self.parts[0], &self.parts[1]], &within, &kind);
         let mut cuts = Cuts::default();
         let mut work = Work::default();
         if self.contact.exists() {
             let mut proofs = Proofs::new(&self.regions, &witnesses);
             work = search(&mut catalogue, &mut proofs, &mut cuts, (budget, progress))?;
         }
-        let judge = Judge { frame: &self.frame, regions: &self.regions, levers };
+        let judge = Judge::new(&self.frame, &self.regions, levers);
         let (mut pieces, tested) = pieces(&catalogue, &mut cuts, &judge);
         weld(&catalogue, &self.frame, &mut pieces);
         work.tested = tested;

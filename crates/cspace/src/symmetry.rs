@@ -41,6 +41,8 @@ fn maps_onto_itself(marks: &[Mark], n: usize, tolerance: f64) -> bool {
     let (sin, cos) = (TAU / n as f64).sin_cos();
     let turn = Pose { cos, sin, shift: Vec2::default() };
     let near = |p: Vec2, q: Vec2| (p - q).norm() <= tolerance;
+    // Images follow each other along the outline as the marks do: the search goes on behind the last one found.
+    let mut next = 0;
     marks.iter().all(|m| {
         let (center, ends) = (turn.apply(m.center), m.ends.map(|e| turn.apply(e)));
         let same = |o: &Mark| {
@@ -51,6 +53,8 @@ fn maps_onto_itself(marks: &[Mark], n: usize, tolerance: f64) -> bool {
                 && (o.radius - m.radius).abs() <= tolerance
                 && (round || (near(o.ends[0], ends[0]) && near(o.ends[1], ends[1])))
         };
-        marks.iter().any(same)
+        let found = (0..marks.len()).map(|k| (next + k) % marks.len()).find(|&k| same(&marks[k]));
+        next = found.map_or(next, |k| k + 1);
+        found.is_some()
     })
 }

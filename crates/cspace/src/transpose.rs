@@ -95,7 +95,7 @@ impl ConfigurationSpace {
         let atlas = self.atlas.transposed();
         let regions = self.regions.transposed();
         let levers = swap(&self.levers);
-        let judge = crate::pieces::Judge { frame: &atlas.frame, regions: &regions, levers };
+        let judge = crate::pieces::Judge::new(&atlas.frame, &regions, levers);
         let ratios = atlas.frame.moving.map(|m| m.ratio);
         let slabs = build(&atlas, &judge, |at| [at[1] / ratios[1], at[0] / ratios[0]])?;
         let links = links(&slabs, &atlas);

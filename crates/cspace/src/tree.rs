@@ -14,6 +14,12 @@ pub(crate) struct Node {
     pub leaf: bool,
 }
 
+impl Node {
+    pub fn leaf((center, radius): (Vec2, f64), item: u32) -> Self {
+        Node { center, radius, arm: center.norm(), link: item, leaf: true }
+    }
+}
+
 /// Nodes in depth-first order; empty without items.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Discs {
@@ -23,10 +29,14 @@ pub(crate) struct Discs {
 impl Discs {
     /// A tree over discs (centre, radius).
     pub fn new(items: &[(Vec2, f64)]) -> Self {
+        Self::over(items, (0..items.len() as u32).collect())
+    }
+
+    /// A tree over some of the discs.
+    pub fn over(items: &[(Vec2, f64)], mut chosen: Vec<u32>) -> Self {
         let mut tree = Self::default();
-        let mut order: Vec<u32> = (0..items.len() as u32).collect();
-        if !order.is_empty() {
-            tree.build(items, &mut order);
+        if !chosen.is_empty() {
+            tree.build(items, &mut chosen);
         }
         tree
     }
@@ -34,8 +44,7 @@ impl Discs {
     fn build(&mut self, items: &[(Vec2, f64)], chosen: &mut [u32]) {
         let at = self.nodes.len();
         if let [only] = *chosen {
-            let (center, radius) = items[only as usize];
-            self.nodes.push(Node { center, radius, arm: center.norm(), link: only, leaf: true });
+            self.nodes.push(Node::leaf(items[only as usize], only));
             return;
         }
         let center = |i: u32| items[i as usize].0;

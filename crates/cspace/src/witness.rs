@@ -5,6 +5,7 @@ use crate::region::Regions;
 use crate::section::Section;
 use crate::span::Span;
 use crate::tree::Discs;
+use crate::within::Within;
 use mainspring_geometry::Vec2;
 use std::f64::consts::TAU;
 
@@ -36,8 +37,9 @@ pub(crate) struct Witnesses {
 }
 
 impl Inside {
-    /// Of a section that turned by a `repeats`-th of a turn is the same: one sector's discs stand for all.
-    fn new(section: &Section, repeats: u32, size: f64) -> Self {
+    /// Of a section that turned by a `repeats`-th of a turn is the same: one sector's discs stand for all. Only those within
+    /// the other body's reach are kept.
+    fn new(section: &Section, repeats: u32, size: f64, reach: impl Fn((Vec2, f64)) -> bool) -> Self {
         let total: f64 = section.spans.iter().map(|s| s.length()).sum();
         let (mut discs, mut thin) = (Vec::new(), false);
         for (span, convex) in section.spans.iter().zip(&section.convex) {
@@ -49,7 +51,7 @@ impl Inside {
             let grown =
                 span.samples(count, *convex).into_iter().filter_map(|(p, n)| grow(section, p, n, size));
             let copies = if at.norm() > NEARLY * size { repeats } else { 1 };
-            discs.extend(grown.flat_map(|d| all_round(d, copies)));
+            discs.extend(grown.flat_map(|d| all_round(d, copies)).filter(|d| reach(*d)));
             let middle = span.samples(1, *convex)[0];
             let side = matches!(span, Span::Line { .. }) && span.length() > 1e-6 * size;
             thin |= side && !section.contains(middle.0 + middle.1 * (THIN * size));
@@ -95,8 +97,9 @@ fn grow(section: &Section, p: Vec2, n: Vec2, size: f64) -> Option<(Vec2, f64)> {
 
 impl Witnesses {
     /// For bodies that repeat so often in a turn.
-    pub fn new(regions: &Regions, repeats: [u32; 2], size: f64) -> Self {
-        let all = |k: usize| regions.sections[k].iter().map(|s| Inside::new(s, repeats[k], size)).collect();
+    pub fn new(regions: &Regions, repeats: [u32; 2], within: &Within, size: f64) -> Self {
+        let inside = |k: usize, s: &Section| Inside::new(s, repeats[k], size, |disc| within.reach(k, disc));
+        let all = |k: usize| regions.sections[k].iter().map(|s| inside(k, s)).collect();
         let facing = regions.facing.iter().map(|f| (f.0, f.1)).collect();
         Witnesses { inside: [all(0), all(1)], facing }
     }

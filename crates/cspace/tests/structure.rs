@@ -334,8 +334,8 @@ fn refusals_say_why() {
     assert!(ConfigurationSpace::new(&three, [0, 1], [0, 1], &held).is_ok());
     let wide = SpaceOptions { windows: [Some((0.0, 7.0)), None], ..SpaceOptions::default() };
     assert!(matches!(fails(&s, [0, 1], [0, 1], &wide), SpaceError::Window { .. }));
-    let budget = SpaceOptions { budget: 3, ..SpaceOptions::default() };
-    assert!(matches!(fails(&s, [0, 1], [0, 1], &budget), SpaceError::TooComplex { budget: 3 }));
+    let budget = SpaceOptions { budget: 2, ..SpaceOptions::default() };
+    assert!(matches!(fails(&s, [0, 1], [0, 1], &budget), SpaceError::TooComplex { budget: 2 }));
     let boxes = vec![
         body("a", vec![slide(0, 1.0, 0.0)], vec![rectangle(0.0, 0.0, 1.0, 0.5)]),
         body("b", vec![slide(1, 0.0, 1.0)], vec![rectangle(0.0, 0.0, 0.25, 2.0)]),

@@ -10,6 +10,7 @@ use mainspring_cspace::{
 };
 use mainspring_mechanism::{Feature, Mechanism, System};
 use mainspring_model::Error;
+use std::sync::Arc;
 
 /// One of the two joint positions of a space.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +48,7 @@ pub struct SpaceWay {
 /// A configuration space of a mechanism's two parts, with what is needed to speak of it.
 #[derive(Clone, Debug)]
 pub struct Space {
-    pub(crate) system: System,
+    pub(crate) system: Arc<System>,
     pub(crate) map: ConfigurationSpace,
     pub(crate) parts: [usize; 2],
     pub(crate) axes: [SpaceAxis; 2],

@@ -48,11 +48,11 @@ fn successors(features: &[Feature], turn: &TileTurn, tolerance: f64) -> Vec<usiz
     let points: Vec<[Vec2; 3]> = features.iter().map(landmarks).collect();
     let mut order: Vec<usize> = (0..features.len()).collect();
     order.sort_by(|&i, &j| points[i][0].x.total_cmp(&points[j][0].x));
+    let kind = |j: usize| std::mem::discriminant(&features[j].shape);
     let find = |i: usize| {
         let wanted = points[i].map(turned);
         let x = wanted[0].x;
         let off = |j: usize| (0..3).map(|k| (points[j][k] - wanted[k]).norm()).fold(0.0, f64::max);
-        let kind = |j: usize| std::mem::discriminant(&features[j].shape);
         let first = order.partition_point(|&j| points[j][0].x < x - tolerance);
         let beside = order[first..].iter().copied().take_while(|&j| points[j][0].x <= x + tolerance);
         let alike = beside.filter(|&j| kind(j) == kind(i) && off(j) <= tolerance);

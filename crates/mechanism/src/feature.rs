@@ -4,6 +4,7 @@
 //! no features. The same curve in several layers is one feature with several intervals of z.
 
 use mainspring_geometry::{CurveId, Edge, Layer, Loop, Outline, Segment, Turn, Vec2};
+use std::collections::BTreeMap;
 
 /// Directions an outward normal may take along a round feature, counterclockwise from `start` to `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,24 +114,30 @@ impl Feature {
 /// All contact features of an outline. `size` is the part's size; equal features of several layers are merged
 /// when they agree to `1e-9 · size`.
 pub fn features(outline: &Outline, size: f64) -> Vec<Feature> {
-    let mut found = Vec::new();
+    let mut found = Found::default();
     for (i, layer) in outline.layers.iter().enumerate() {
         for (j, boundary) in layer.loops.iter().enumerate() {
             add_loop(&mut found, layer, boundary, (i, j), 1e-9 * size);
         }
     }
-    number_occurrences(&mut found);
-    found
+    found.features
 }
 
-fn add_loop(found: &mut Vec<Feature>, layer: &Layer, boundary: &Loop, at: (usize, usize), tolerance: f64) {
+/// Features found so far, and which of them have the same curves, in order.
+#[derive(Default)]
+struct Found {
+    features: Vec<Feature>,
+    named: BTreeMap<(CurveId, Option<CurveId>), Vec<usize>>,
+}
+
+fn add_loop(found: &mut Found, layer: &Layer, boundary: &Loop, at: (usize, usize), tolerance: f64) {
     let edges = &boundary.edges;
     let heights = vec![(layer.bottom, layer.top)];
     let placed = |feature: Feature, edge: usize| Feature { at: (at.0, at.1, edge), ..feature };
     let curves: Vec<usize> = edges
         .iter()
         .enumerate()
-        .map(|(i, edge)| insert(found, placed(curve_feature(edge, heights.clone()), i), tolerance))
+        .map(|(i, edge)| found.insert(placed(curve_feature(edge, heights.clone()), i), tolerance))
         .collect();
     for (i, edge) in edges.iter().enumerate() {
         if edge.turn_at_start != Turn::Convex || matches!(edge.segment, Segment::Circle { .. }) {
@@ -138,10 +145,10 @@ fn add_loop(found: &mut Vec<Feature>, layer: &Layer, boundary: &Loop, at: (usize
         }
         let before = (i + edges.len() - 1) % edges.len();
         let corner = placed(corner_feature(&edges[before], edge, heights.clone()), i);
-        let corner = insert(found, corner, tolerance);
+        let corner = found.insert(corner, tolerance);
         for neighbour in [curves[before], curves[i]] {
-            link(found, corner, neighbour);
-            link(found, neighbour, corner);
+            link(&mut found.features, corner, neighbour);
+            link(&mut found.features, neighbour, corner);
         }
     }
 }
@@ -152,24 +159,23 @@ fn link(found: &mut [Feature], from: usize, to: usize) {
     }
 }
 
-/// Merges with an equal feature of another layer, or appends.
-fn insert(found: &mut Vec<Feature>, feature: Feature, tolerance: f64) -> usize {
-    let same = found.iter().position(|f| {
-        f.name.curve == feature.name.curve
-            && f.name.next == feature.name.next
-            && (f.center - feature.center).norm() <= tolerance
-            && (f.radius - feature.radius).abs() <= tolerance
-            && same_shape(&f.shape, &feature.shape, tolerance)
-    });
-    match same {
-        Some(i) => {
-            found[i].heights.extend(feature.heights);
-            i
+impl Found {
+    /// Merges with an equal feature of another layer, or appends.
+    fn insert(&mut self, feature: Feature, tolerance: f64) -> usize {
+        let named = self.named.entry((feature.name.curve, feature.name.next)).or_default();
+        let equal = |f: &Feature| {
+            (f.center - feature.center).norm() <= tolerance
+                && (f.radius - feature.radius).abs() <= tolerance
+                && same_shape(&f.shape, &feature.shape, tolerance)
+        };
+        if let Some(&i) = named.iter().find(|&&i| equal(&self.features[i])) {
+            self.features[i].heights.extend(feature.heights);
+            return i;
         }
-        None => {
-            found.push(feature);
-            found.len() - 1
-        }
+        let name = FeatureName { occurrence: named.len() as u32, ..feature.name };
+        named.push(self.features.len());
+        self.features.push(Feature { name, ..feature });
+        self.features.len() - 1
     }
 }
 
@@ -281,14 +287,6 @@ fn outward(segment: &Segment, p: Vec2) -> Vec2 {
                 (center - p).unit()
             }
         }
-    }
-}
-
-fn number_occurrences(found: &mut [Feature]) {
-    for i in 1..found.len() {
-        let (curve, next) = (found[i].name.curve, found[i].name.next);
-        let earlier = found[..i].iter().filter(|f| f.name.curve == curve && f.name.next == next).count();
-        found[i].name.occurrence = earlier as u32;
     }
 }
 

@@ -25,7 +25,7 @@ use mainspring_geometry::{
     Csg, Outline, OutlineBudget, OutlineError, OutlineRecipe, Primitive, Rigid3, Vec3, WallLayer,
 };
 use mainspring_model::{Error, Machine, Values};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 impl Mechanism {
     /// Finds the pairs, subsystems and outlines of a machine with some parameters overridden.
@@ -172,6 +172,7 @@ fn assemble(
         size,
         primitives,
         tolerance,
+        shapes: OnceLock::new(),
     })
 }
 

@@ -10,9 +10,10 @@ use super::plane::WorkingPlane;
 use super::subsystems::Subsystem;
 use super::symmetry::Symmetry;
 use crate::forces::ContactLaw;
+use crate::interaction::System;
 use mainspring_geometry::{Csg, Outline, OutlineRecipe, Primitive, Vec3};
 use mainspring_model::{Machine, Place};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// What `compile` may assume.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +119,8 @@ pub struct Mechanism {
     /// Diagonal of the box around all parts: tolerances are relative to it.
     pub size: f64,
     pub(crate) tolerance: f64,
+    /// What [`Mechanism::system_of_shapes`] made, once it was asked.
+    pub(crate) shapes: OnceLock<Arc<System>>,
 }
 
 impl Mechanism {

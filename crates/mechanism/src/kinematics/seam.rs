@@ -8,6 +8,7 @@ use crate::interaction::{Exclusion, System};
 use crate::system::{Body, Coordinate, Motion};
 use mainspring_geometry::{Outline, Vec2};
 use mainspring_model::Error;
+use std::sync::Arc;
 
 /// Greatest friction, spring constant and force over the inertia, in the file's units.
 const MAX_RATE: f64 = 1e100;
@@ -43,13 +44,17 @@ impl Mechanism {
         self.check_finite(coordinates)
     }
 
-    /// The same machine for questions of reach alone, which inertias, friction and springs do not answer.
+    /// The same machine for questions of reach alone, which inertias, friction and springs do not answer; made once.
     ///
     /// # Errors
     /// As [`Mechanism::coordinates`], inertias and rates apart, and [`Mechanism::bodies`].
-    pub fn system_of_shapes(&self) -> Result<System, Error> {
+    pub fn system_of_shapes(&self) -> Result<Arc<System>, Error> {
+        if let Some(made) = self.shapes.get() {
+            return Ok(made.clone());
+        }
         self.check_motion()?;
-        self.system_beside_loose()
+        let made = Arc::new(self.system_beside_loose()?);
+        Ok(self.shapes.get_or_init(|| made).clone())
     }
 
     /// As [`Mechanism::system_of_shapes`]; nothing is asked of parts that hang on nothing.
