@@ -274,7 +274,7 @@ def simulate(
         E, D, M of compliant contact; None: the supplement's, else the paper's.
     rtol
         Relative tolerance of states and of contact times, from 1e-13 to 1e-2; None: 1e-8 for rigid contact,
-        2e-6 for compliant contact.
+        1.5e-6 for compliant contact.
     positions, velocities
         Initial state by part, in radians or the file's length; the others as the supplement says.
     forces

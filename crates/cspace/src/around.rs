@@ -41,10 +41,9 @@ impl Around {
         Around { rel, half: cell.half, moves, turn, little: 1e-9 * size }
     }
 
-    /// How far points of both bodies move against each other that lie at these distances from their origins, give or take
-    /// the second.
-    pub fn motion(&self, arms: [(f64, f64); 2]) -> f64 {
-        let one = |k: usize| self.moves[k].0 * (arms[k].0 + arms[k].1).max(0.0) + self.moves[k].1;
+    /// How far points of both bodies move against each other that lie at these distances from their origins.
+    pub fn motion(&self, arms: [f64; 2]) -> f64 {
+        let one = |k: usize| self.moves[k].0 * arms[k].max(0.0) + self.moves[k].1;
         one(0) + one(1)
     }
 
@@ -55,7 +54,7 @@ impl Around {
 
     /// May features under two tree nodes touch? A disc moves as its centre does, whatever turns within it.
     pub fn near(&self, m: &Node, n: &Node) -> bool {
-        let reach = m.radius + n.radius + self.motion([(m.arm, 0.0), (n.arm, 0.0)]);
+        let reach = m.radius + n.radius + self.motion([m.arm, n.arm]);
         let apart = self.apart(m, n);
         apart.dot(apart) <= reach * reach
     }

@@ -8,7 +8,6 @@ use crate::shape::Shape;
 use crate::span::Span;
 use mainspring_geometry::{CurveId, Vec2};
 use mainspring_mechanism::{Feature, FeatureName, FeatureShape, GapKind, Interaction, Pose, System};
-use std::collections::HashMap;
 
 /// Features of a pair of bodies as the system's interaction sees them.
 pub(crate) struct Contact<'a> {
@@ -95,10 +94,9 @@ impl<'a> Contact<'a> {
     /// The layers of body `k`.
     pub fn sections(&self, k: usize, moving: &Moving) -> Vec<Section> {
         let usable = self.usable(k);
-        let mut by_curve: HashMap<CurveId, Vec<usize>> = HashMap::new();
-        for (i, f) in self.features(k).iter().enumerate().filter(|(_, f)| f.name.next.is_none()) {
-            by_curve.entry(f.name.curve).or_default().push(i);
-        }
+        let smooth = self.features(k).iter().enumerate().filter(|(_, f)| f.name.next.is_none());
+        let mut by_curve: Vec<(CurveId, usize)> = smooth.map(|(i, f)| (f.name.curve, i)).collect();
+        by_curve.sort_unstable();
         let outline = &self.system.bodies[self.bodies[k]].outline;
         outline
             .layers
@@ -108,8 +106,9 @@ impl<'a> Contact<'a> {
                     let edge = &layer.loops[i].edges[j];
                     let center = Span::new(&edge.segment, &Pose::identity()).disc().0;
                     let off = |f: usize| (self.features(k)[f].center - center).norm();
-                    let all = by_curve.get(&edge.curve).map_or(&[][..], |v| v.as_slice());
-                    let nearest = all.iter().copied().min_by(|a, b| off(*a).total_cmp(&off(*b)));
+                    let first = by_curve.partition_point(|(curve, _)| *curve < edge.curve);
+                    let all = by_curve[first..].iter().take_while(|(curve, _)| *curve == edge.curve);
+                    let nearest = all.map(|(_, f)| *f).min_by(|a, b| off(*a).total_cmp(&off(*b)));
                     nearest.filter(|&f| usable[f]).unwrap_or(usize::MAX)
                 })
             })

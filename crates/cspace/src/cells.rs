@@ -125,7 +125,7 @@ fn look(
 /// all are single features.
 fn refine(catalogue: &Catalogue, front: Front, around: &Around, motion: f64) -> (Front, bool) {
     let [ta, tb] = &catalogue.trees;
-    let (mut kept, mut coarse): (Front, Front) = (Vec::new(), front);
+    let (mut kept, mut coarse) = (Front::with_capacity(front.len()), front);
     let mut opened = 0;
     for all in [false, true] {
         let mut open = std::mem::take(&mut coarse);

@@ -7,7 +7,7 @@
 use crate::around::Around;
 use crate::region::{Ignored, Regions};
 use crate::section::Section;
-use crate::tree::Discs;
+use crate::tree::{Discs, PENDING};
 
 /// Pairs of tree nodes looked at for one box at most.
 const EFFORT: usize = 1500;
@@ -47,7 +47,8 @@ impl Crossed {
 /// Leaves whose spans cross throughout, if they are found soon.
 fn find(sections: [&Section; 2], ignored: &Ignored, around: &Around, effort: usize) -> Option<(u32, u32)> {
     let trees = sections.map(|s| &s.close().tree);
-    let mut pending = if trees.iter().any(|t| t.nodes.is_empty()) { vec![] } else { vec![(0, 0)] };
+    let mut pending = Vec::with_capacity(PENDING);
+    pending.extend(trees.iter().all(|t| !t.nodes.is_empty()).then_some((0, 0)));
     for _ in 0..effort {
         let (i, j) = pending.pop()?;
         if !may_cross(sections, around, (i, j)) {
@@ -69,8 +70,7 @@ fn may_cross(sections: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bo
     let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
     let (reach, apart) = (m.radius + n.radius, around.apart(m, n));
     let shorter = a.greatest[i as usize].min(b.greatest[j as usize]);
-    around.motion([(m.arm, -m.radius), (n.arm, -n.radius)]) < 2.0 * shorter
-        && apart.dot(apart) <= reach * reach
+    around.motion([m.arm - m.radius, n.arm - n.radius]) < 2.0 * shorter && apart.dot(apart) <= reach * reach
 }
 
 /// Do the spans of two leaves cross throughout the box?
@@ -81,7 +81,7 @@ fn cross([a, b]: [&Section; 2], around: &Around, (i, j): (u32, u32)) -> bool {
         return false;
     }
     let (first, second) = (a.spans[s].placed(&around.rel[0]), b.spans[t]);
-    let motion = around.motion([(m.arm, m.radius), (n.arm, n.radius)]) + around.little;
+    let motion = around.motion([m.arm + m.radius, n.arm + n.radius]) + around.little;
     second.ends().iter().all(|p| first.distance_to_point(*p) > motion)
         && first.ends().iter().all(|p| second.distance_to_point(*p) > motion)
         && first.crossings(&second) % 2 == 1

@@ -78,7 +78,7 @@ impl<'a> Catalogue<'a> {
         let trees = [0, 1].map(|k| {
             let discs: Vec<_> = parts[k].iter().map(|p| p.disc).collect();
             let chosen = (0..discs.len() as u32).filter(|&i| within.reach(k, discs[i as usize]));
-            Discs::over(&discs, chosen.collect())
+            Discs::over(&discs, chosen)
         });
         Catalogue {
             frame,

@@ -9,7 +9,7 @@ use crate::witness::Witnesses;
 /// many pairs of tree nodes for each feature pair at certain success. Crossing boundaries first,
 const CROSSINGS: f64 = 30.0;
 /// then overlapping discs.
-const DISCS: f64 = 100.0;
+const DISCS: f64 = 50.0;
 /// Success is never taken to be rarer than this part of the boxes,
 const RARE: f64 = 0.02;
 /// and to begin with to be this part.

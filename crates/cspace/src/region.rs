@@ -9,7 +9,7 @@ use crate::moving::Moving;
 use crate::reduce::relative;
 use crate::section::Section;
 use crate::span::Span;
-use crate::tree::Discs;
+use crate::tree::{Discs, PENDING};
 use crate::within::Within;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
@@ -154,7 +154,8 @@ fn search(
         let (m, n) = (&ta[i as usize], &tb[j as usize]);
         (rel.apply(m.center) - n.center).norm() - m.radius - n.radius
     };
-    let mut pending = vec![(apart(0, 0), 0u32, 0u32)];
+    let mut pending = Vec::with_capacity(PENDING);
+    pending.push((apart(0, 0), 0u32, 0u32));
     while let Some((bound, i, j)) = pending.pop() {
         if bound >= reach {
             continue;

@@ -1,8 +1,9 @@
 //! One layer of a body: its boundary, which points are inside, which boundary point is nearest.
 
 use crate::region::Ignored;
-use crate::span::{Slat, Span};
-use crate::tree::Discs;
+use crate::slat::Slat;
+use crate::span::Span;
+use crate::tree::{Discs, PENDING};
 use mainspring_geometry::{Layer, Segment, Vec2};
 use mainspring_mechanism::Pose;
 
@@ -32,7 +33,7 @@ pub(crate) struct Cover {
 }
 
 impl Cover {
-    fn over(discs: &[(Vec2, f64)], chosen: Vec<u32>) -> Self {
+    fn over(discs: &[(Vec2, f64)], chosen: impl IntoIterator<Item = u32>) -> Self {
         let tree = Discs::over(discs, chosen);
         Cover { greatest: tree.greatest(|k| discs[k as usize].1), tree }
     }
@@ -61,8 +62,8 @@ impl Section {
             points.extend(point.into_iter().flatten());
         }
         let discs: Vec<_> = spans.iter().map(Span::disc).collect();
-        let all = Cover::over(&discs, (0..discs.len() as u32).collect());
-        let slats = spans.iter().map(Span::slat).collect();
+        let all = Cover::over(&discs, 0..discs.len() as u32);
+        let slats = spans.iter().map(Slat::around).collect();
         let heights = (layer.bottom, layer.top);
         Section { heights, spans, slats, features, convex, all, close: None, points }
     }
@@ -85,10 +86,11 @@ impl Section {
     /// Is the point inside? Counts crossings of a ray towards +x.
     pub fn contains(&self, p: Vec2) -> bool {
         let mut inside = false;
-        let mut pending = vec![0u32];
         if self.all.tree.nodes.is_empty() {
             return false;
         }
+        let mut pending = Vec::with_capacity(PENDING);
+        pending.push(0u32);
         while let Some(i) = pending.pop() {
             let node = &self.all.tree.nodes[i as usize];
             let out = (node.center.y - p.y).abs() > node.radius || node.center.x + node.radius < p.x;
@@ -111,7 +113,8 @@ impl Section {
         let mut best = (Vec2::default(), f64::INFINITY);
         let nodes = &self.all.tree.nodes;
         let bound = |i: u32| (nodes[i as usize].center - p).norm() - nodes[i as usize].radius;
-        let mut pending = if nodes.is_empty() { vec![] } else { vec![(bound(0), 0u32)] };
+        let mut pending = Vec::with_capacity(PENDING);
+        pending.extend((!nodes.is_empty()).then(|| (bound(0), 0u32)));
         while let Some((least, i)) = pending.pop() {
             let node = &nodes[i as usize];
             if least >= best.1 {

@@ -15,7 +15,8 @@ pub(crate) enum Span {
 pub(crate) struct Sector {
     pub start: Vec2,
     pub end: Vec2,
-    sweep: f64,
+    /// Radians.
+    pub sweep: f64,
 }
 
 impl Sector {
@@ -33,26 +34,6 @@ impl Sector {
 
     fn turned(&self, pose: &Pose) -> Self {
         Sector { start: pose.rotate(self.start), end: pose.rotate(self.end), sweep: self.sweep }
-    }
-}
-
-/// All points nearer than `thick` to a chord, which reaches `half` to both sides of its centre in direction `along`: as tight
-/// around flat arcs as a disc is wide.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Slat {
-    center: Vec2,
-    along: Vec2,
-    half: f64,
-    thick: f64,
-}
-
-impl Slat {
-    /// At least so far apart are this one, placed at `pose`, and another: across either's chord.
-    pub fn apart(&self, pose: &Pose, other: &Self) -> f64 {
-        let (d, along) = (pose.apply(self.center) - other.center, pose.rotate(self.along));
-        let turned = along.cross(other.along).abs();
-        let across = other.along.cross(d).abs() - turned * self.half;
-        across.max(along.cross(d).abs() - turned * other.half) - self.thick - other.thick
     }
 }
 
@@ -103,21 +84,6 @@ impl Span {
             }
             Span::Arc { center, radius, .. } => (center, radius),
         }
-    }
-
-    /// The slat around it.
-    pub fn slat(&self) -> Slat {
-        let [a, b] = self.ends();
-        let (center, half) = ((a + b) * 0.5, 0.5 * (b - a).norm());
-        let thick = match *self {
-            Span::Line { .. } => 0.0,
-            Span::Arc { radius, sector, .. } if sector.sweep < std::f64::consts::PI => {
-                half * half / (radius + ((radius - half) * (radius + half)).max(0.0).sqrt())
-            }
-            Span::Arc { .. } => f64::INFINITY,
-        };
-        let along = if half > 0.0 { (b - a) * (0.5 / half) } else { Vec2::new(1.0, 0.0) };
-        Slat { center, along, half, thick }
     }
 
     pub fn nearest_to(&self, p: Vec2) -> Vec2 {

@@ -2,6 +2,9 @@
 
 use mainspring_geometry::Vec2;
 
+/// Room for so many nodes, or pairs of them, that wait to be looked at.
+pub(crate) const PENDING: usize = 64;
+
 /// A disc around one item or two smaller nodes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
@@ -29,49 +32,48 @@ pub(crate) struct Discs {
 impl Discs {
     /// A tree over discs (centre, radius).
     pub fn new(items: &[(Vec2, f64)]) -> Self {
-        Self::over(items, (0..items.len() as u32).collect())
+        Self::over(items, 0..items.len() as u32)
     }
 
     /// A tree over some of the discs.
-    pub fn over(items: &[(Vec2, f64)], mut chosen: Vec<u32>) -> Self {
-        let mut tree = Self::default();
-        if !chosen.is_empty() {
-            tree.build(items, &mut chosen);
+    pub fn over(items: &[(Vec2, f64)], chosen: impl IntoIterator<Item = u32>) -> Self {
+        let mut leaves: Vec<Node> = chosen.into_iter().map(|i| Node::leaf(items[i as usize], i)).collect();
+        let mut tree = Self { nodes: Vec::with_capacity(2 * leaves.len()) };
+        if !leaves.is_empty() {
+            tree.build(&mut leaves);
         }
         tree
     }
 
-    fn build(&mut self, items: &[(Vec2, f64)], chosen: &mut [u32]) {
+    fn build(&mut self, leaves: &mut [Node]) {
         let at = self.nodes.len();
-        if let [only] = *chosen {
-            self.nodes.push(Node::leaf(items[only as usize], only));
+        if let [only] = *leaves {
+            self.nodes.push(only);
             return;
         }
-        let center = |i: u32| items[i as usize].0;
-        let mean = chosen.iter().fold(Vec2::default(), |s, &i| s + center(i)) * (1.0 / chosen.len() as f64);
-        let radius =
-            chosen.iter().map(|&i| (center(i) - mean).norm() + items[i as usize].1).fold(0.0, f64::max);
+        let mean = leaves.iter().fold(Vec2::default(), |s, n| s + n.center) * (1.0 / leaves.len() as f64);
+        let radius = leaves.iter().map(|n| (n.center - mean).norm() + n.radius).fold(0.0, f64::max);
         self.nodes.push(Node { center: mean, radius, arm: mean.norm(), link: 0, leaf: false });
-        let spread = |key: fn(Vec2) -> f64| {
-            let keys = chosen.iter().map(|&i| key(center(i)));
-            keys.clone().fold(f64::MIN, f64::max) - keys.fold(f64::MAX, f64::min)
-        };
-        let key: fn(Vec2) -> f64 = if spread(|c| c.x) >= spread(|c| c.y) { |c| c.x } else { |c| c.y };
-        let half = chosen.len() / 2;
-        chosen
-            .select_nth_unstable_by(half, |&i, &j| key(center(i)).total_cmp(&key(center(j))).then(i.cmp(&j)));
-        let (first, second) = chosen.split_at_mut(half);
-        self.build(items, first);
+        let half = leaves.len() / 2;
+        if is_wide(leaves) {
+            part(leaves, half, |n| n.center.x);
+        } else {
+            part(leaves, half, |n| n.center.y);
+        }
+        let (first, second) = leaves.split_at_mut(half);
+        self.build(first);
         self.nodes[at].link = self.nodes.len() as u32;
-        self.build(items, second);
+        self.build(second);
     }
 
     /// The children of an inner node.
+    #[inline]
     pub fn children(&self, at: u32) -> [u32; 2] {
         [at + 1, self.nodes[at as usize].link]
     }
 
     /// The pairs of nodes that a pair, not both leaves, opens into: the larger node of the two is halved.
+    #[inline]
     pub fn halved(trees: [&Self; 2], (i, j): (u32, u32)) -> [(u32, u32); 2] {
         let (m, n) = (&trees[0].nodes[i as usize], &trees[1].nodes[j as usize]);
         if !m.leaf && (n.leaf || m.radius >= n.radius) {
@@ -95,4 +97,19 @@ impl Discs {
         }
         found
     }
+}
+
+/// Do centres reach as far along x as along y?
+fn is_wide(leaves: &[Node]) -> bool {
+    let (mut low, mut high) = (leaves[0].center, leaves[0].center);
+    for n in leaves {
+        low = Vec2::new(low.x.min(n.center.x), low.y.min(n.center.y));
+        high = Vec2::new(high.x.max(n.center.x), high.y.max(n.center.y));
+    }
+    high.x - low.x >= high.y - low.y
+}
+
+/// Puts the leaves with the `half` least keys first.
+fn part(leaves: &mut [Node], half: usize, key: impl Fn(&Node) -> f64) {
+    leaves.select_nth_unstable_by(half, |m, n| key(m).total_cmp(&key(n)).then(m.link.cmp(&n.link)));
 }

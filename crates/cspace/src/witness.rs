@@ -4,9 +4,10 @@ use crate::around::Around;
 use crate::region::Regions;
 use crate::section::Section;
 use crate::span::Span;
-use crate::tree::Discs;
+use crate::tree::{Discs, Node, PENDING};
 use crate::within::Within;
 use mainspring_geometry::Vec2;
+use mainspring_mechanism::Pose;
 use std::f64::consts::TAU;
 
 /// Discs sampled per section, besides one for each span.
@@ -18,13 +19,12 @@ const THIN: f64 = 1e-9;
 /// Nearer than this (relative to the size, or in radians) two places count as one.
 const NEARLY: f64 = 1e-9;
 
-/// Discs inside one section: centres and radii in local coordinates, and a tree over the centres.
+/// Discs inside one section.
 #[derive(Debug)]
 struct Inside {
-    discs: Vec<(Vec2, f64)>,
+    /// In local coordinates. Of a node: no disc reaches farther from its centre than `radius`, and no disc's centre is nearer
+    /// to the origin than `arm`.
     tree: Discs,
-    /// Greatest radius under each node.
-    greatest: Vec<f64>,
     /// Is there hardly any material behind a straight side?
     thin: bool,
 }
@@ -41,6 +41,8 @@ impl Inside {
     /// the other body's reach are kept.
     fn new(section: &Section, repeats: u32, size: f64, reach: impl Fn((Vec2, f64)) -> bool) -> Self {
         let total: f64 = section.spans.iter().map(|s| s.length()).sum();
+        let turns: Vec<Pose> =
+            (0..repeats).map(|k| turned(f64::from(k) * TAU / f64::from(repeats))).collect();
         let (mut discs, mut thin) = (Vec::new(), false);
         for (span, convex) in section.spans.iter().zip(&section.convex) {
             let at = span.disc().0;
@@ -50,16 +52,22 @@ impl Inside {
             let count = 1 + (SAMPLES * span.length() / total).min(SAMPLES) as usize;
             let grown =
                 span.samples(count, *convex).into_iter().filter_map(|(p, n)| grow(section, p, n, size));
-            let copies = if at.norm() > NEARLY * size { repeats } else { 1 };
-            discs.extend(grown.flat_map(|d| all_round(d, copies)).filter(|d| reach(*d)));
+            let copies = if at.norm() > NEARLY * size { &turns[..] } else { &turns[..1] };
+            discs.extend(
+                grown.flat_map(|(c, r)| copies.iter().map(move |t| (t.apply(c), r))).filter(|d| reach(*d)),
+            );
             let middle = span.samples(1, *convex)[0];
             let side = matches!(span, Span::Line { .. }) && span.length() > 1e-6 * size;
             thin |= side && !section.contains(middle.0 + middle.1 * (THIN * size));
         }
         let centers: Vec<_> = discs.iter().map(|d| (d.0, 0.0)).collect();
-        let tree = Discs::new(&centers);
+        let mut tree = Discs::new(&centers);
         let greatest = tree.greatest(|k| discs[k as usize].1);
-        Inside { discs, tree, greatest, thin }
+        for (node, radius) in tree.nodes.iter_mut().zip(greatest) {
+            node.arm = (node.arm - node.radius).max(0.0);
+            node.radius += radius;
+        }
+        Inside { tree, thin }
     }
 }
 
@@ -70,12 +78,10 @@ fn in_first_sector(p: Vec2, repeats: u32) -> bool {
     repeats == 1 || angle <= sector + NEARLY || angle >= TAU - NEARLY
 }
 
-/// A disc and its copies in equal steps about the origin.
-fn all_round((center, radius): (Vec2, f64), repeats: u32) -> impl Iterator<Item = (Vec2, f64)> {
-    (0..repeats).map(move |k| {
-        let (sin, cos) = (f64::from(k) * TAU / f64::from(repeats)).sin_cos();
-        (Vec2::new(cos * center.x - sin * center.y, sin * center.x + cos * center.y), radius)
-    })
+/// A turn about the origin.
+fn turned(angle: f64) -> Pose {
+    let (sin, cos) = angle.sin_cos();
+    Pose { cos, sin, shift: Vec2::default() }
 }
 
 /// The greatest disc inside that touches the boundary at `p` with inward normal `n`, a little smaller.
@@ -120,12 +126,15 @@ impl Witnesses {
 
 /// Is there a pair of discs that overlap throughout the box? Most promising nodes first.
 fn overlap(inside: [&Inside; 2], around: &Around, depth: f64, effort: usize) -> bool {
-    if inside.iter().any(|s| s.discs.is_empty()) {
+    let trees = inside.map(|s| &s.tree);
+    if trees.iter().any(|t| t.nodes.is_empty()) {
         return false;
     }
-    let trees = inside.map(|s| &s.tree);
-    let least = |nodes: (u32, u32)| least_apart(inside, around, nodes) + depth;
-    let mut pending = vec![(least((0, 0)), (0, 0))];
+    let least = |(i, j): (u32, u32)| {
+        least_apart(around, &trees[0].nodes[i as usize], &trees[1].nodes[j as usize]) + depth
+    };
+    let mut pending = Vec::with_capacity(PENDING);
+    pending.push((least((0, 0)), (0, 0)));
     for _ in 0..effort {
         let Some((apart, (i, j))) = pending.pop() else { return false };
         if apart >= 0.0 {
@@ -144,9 +153,6 @@ fn overlap(inside: [&Inside; 2], around: &Around, depth: f64, effort: usize) -> 
 }
 
 /// The least that discs under two nodes can be apart, in the worst configuration of the box.
-fn least_apart([a, b]: [&Inside; 2], around: &Around, (i, j): (u32, u32)) -> f64 {
-    let (m, n) = (&a.tree.nodes[i as usize], &b.tree.nodes[j as usize]);
-    let motion = around.motion([(m.arm, -m.radius), (n.arm, -n.radius)]);
-    let radii = m.radius + n.radius + a.greatest[i as usize] + b.greatest[j as usize];
-    around.apart(m, n).norm() - radii + motion
+fn least_apart(around: &Around, m: &Node, n: &Node) -> f64 {
+    around.apart(m, n).norm() - m.radius - n.radius + around.motion([m.arm, n.arm])
 }

@@ -25,11 +25,11 @@ impl ContactModel {
     }
 
     /// Relative tolerance unless another is asked for. Rigid motion is exact but for stretches in contact, and dear to lose;
-    /// compliant motion costs steps, and with 2e-6 every shipped machine accounts for its energy to 1e-5.
+    /// compliant motion costs steps, and with 1.5e-6 every shipped machine accounts for its energy to 1e-5.
     pub fn default_rtol(self) -> f64 {
         match self {
             Self::Rigid => 1e-8,
-            Self::Compliant => 2e-6,
+            Self::Compliant => 1.5e-6,
         }
     }
 }

@@ -45,33 +45,34 @@ fn successors(features: &[Feature], turn: &TileTurn, tolerance: f64) -> Vec<usiz
         let d = p - turn.center;
         turn.center + Vec2::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
     };
-    let points: Vec<[Vec2; 3]> = features.iter().map(landmarks).collect();
-    let mut order: Vec<usize> = (0..features.len()).collect();
-    order.sort_by(|&i, &j| points[i][0].x.total_cmp(&points[j][0].x));
-    let kind = |j: usize| std::mem::discriminant(&features[j].shape);
-    let find = |i: usize| {
-        let wanted = points[i].map(turned);
-        let x = wanted[0].x;
-        let off = |j: usize| (0..3).map(|k| (points[j][k] - wanted[k]).norm()).fold(0.0, f64::max);
-        let first = order.partition_point(|&j| points[j][0].x < x - tolerance);
-        let beside = order[first..].iter().copied().take_while(|&j| points[j][0].x <= x + tolerance);
-        let alike = beside.filter(|&j| kind(j) == kind(i) && off(j) <= tolerance);
-        alike.min_by(|&a, &b| off(a).total_cmp(&off(b)).then(a.cmp(&b))).unwrap_or(i)
+    let marks: Vec<([Vec2; 3], f64)> = features.iter().map(landmarks).collect();
+    let near = |p: &[Vec2; 3], q: &[Vec2; 3]| p.iter().zip(q).all(|(p, q)| (*p - *q).norm() <= tolerance);
+    let kind = |i: usize| std::mem::discriminant(&features[i].shape);
+    // Images follow each other along the outline as the features do: the search goes on behind the last one found.
+    let mut next = 0;
+    let image = |i: usize| {
+        let (points, radius) = (marks[i].0.map(turned), marks[i].1);
+        let same = |j: &usize| {
+            kind(*j) == kind(i) && near(&marks[*j].0, &points) && (marks[*j].1 - radius).abs() <= tolerance
+        };
+        let found = (next..features.len()).chain(0..next).find(same);
+        next = found.map_or(next, |j| j + 1);
+        found.unwrap_or(i)
     };
-    (0..features.len()).map(find).collect()
+    (0..features.len()).map(image).collect()
 }
 
-/// Points that tell a feature from its like: the ends of an edge; of an arc the centre and two directions.
-fn landmarks(feature: &Feature) -> [Vec2; 3] {
+/// Points that tell a feature from its like: the ends of an edge; of an arc the centre and two directions; and the radius.
+fn landmarks(feature: &Feature) -> ([Vec2; 3], f64) {
     match &feature.shape {
-        FeatureShape::Edge { from, to, .. } => [*from, *to, *to],
+        FeatureShape::Edge { from, to, .. } => ([*from, *to, *to], 0.0),
         FeatureShape::Round { center, radius, cone } | FeatureShape::Hollow { center, radius, cone } => {
             let (a, b) = match *cone {
                 Cone::Full => (Vec2::default(), Vec2::default()),
                 Cone::Narrow { start, end } => (start, end),
                 Cone::Wide { middle, .. } => (middle, middle),
             };
-            [*center, *center + a * *radius, *center + b * *radius]
+            ([*center, *center + a * *radius, *center + b * *radius], *radius)
         }
     }
 }

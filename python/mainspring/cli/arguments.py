@@ -62,7 +62,7 @@ def _start(command: Parser) -> None:
         metavar="E,D,M",
         help="constants of compliant contact (default: the supplement's CONTACT, else 1e5,1e4,100)",
     )
-    add("--rtol", metavar="R", help="relative tolerance (default: 1e-8 rigid, 2e-6 compliant)")
+    add("--rtol", metavar="R", help="relative tolerance (default: 1e-8 rigid, 1.5e-6 compliant)")
     add("--position", metavar="PART=10deg", action="append", default=[], help="start position; repeatable")
     add("--velocity", metavar="PART=5deg/s", action="append", default=[], help="start velocity; repeatable")
 

@@ -47,6 +47,8 @@ pub struct Search<'s, 'a> {
     pub overlaps: &'s Overlaps<'a>,
     pub stretch: &'s Stretch,
     pub pairs: &'s mut Vec<(u32, u32)>,
+    /// Where along the step the group is; none before it was moved there.
+    pub at: Option<f64>,
 }
 
 impl Search<'_, '_> {
@@ -81,8 +83,15 @@ impl Search<'_, '_> {
         self.group.loss(&states)
     }
 
+    fn go_to(&mut self, x: f64) {
+        if self.at != Some(x) {
+            self.stretch.move_to(self.group, x);
+            self.at = Some(x);
+        }
+    }
+
     fn states(&mut self, x: f64) -> Vec<TipState> {
-        self.stretch.move_to(self.group, x);
+        self.go_to(x);
         (0..self.group.tips.len()).map(|k| self.group.state(k)).collect()
     }
 
@@ -108,7 +117,7 @@ impl Search<'_, '_> {
         if stuck.is_empty() {
             return None;
         }
-        self.stretch.move_to(self.group, between.1);
+        self.go_to(between.1);
         let needed = self.group.holding(&stuck);
         let sizes = &self.group.system.forces.coulomb;
         let over = stuck.iter().zip(needed).filter(|&(&i, force)| force.abs() > sizes[i]);
@@ -148,13 +157,13 @@ impl Search<'_, '_> {
             return None;
         }
         if is_on(&state.gap) || self.margin(k, between.0) < 0.0 {
-            self.stretch.move_to(self.group, between.1);
+            self.go_to(between.1);
             return self
                 .handed(k, state, between)
                 .or_else(|| self.followed(k, state, between.1, f64::INFINITY));
         }
         let off = self.locate(Change::RanOff(k), between);
-        self.stretch.move_to(self.group, off);
+        self.go_to(off);
         let state = self.group.state(k);
         let found = self.handed(k, &state, (between.0, off)).or_else(|| self.followed(k, &state, off, EQUAL));
         let tip = self.group.tips[k];
@@ -169,7 +178,7 @@ impl Search<'_, '_> {
             return Some(Found { x: between.1, change: Change::Hand(k, next) });
         }
         let x = self.locate(Change::Hand(k, next), between);
-        self.stretch.move_to(self.group, x);
+        self.go_to(x);
         let state = self.group.state(k);
         let next = self.successor(k, &state).unwrap_or(next);
         Some(Found { x, change: Change::Hand(k, next) })
@@ -211,7 +220,7 @@ impl Search<'_, '_> {
 
     /// What is positive before a change and negative after it.
     fn value(&mut self, change: &Change, x: f64) -> f64 {
-        self.stretch.move_to(self.group, x);
+        self.go_to(x);
         match *change {
             Change::Part(k) => self.group.state(k).depth,
             Change::Clamp(k) => {

@@ -256,6 +256,7 @@ impl<'a> Compliant<'a> {
             overlaps: &self.overlaps,
             stretch: &self.stepper.stretch,
             pairs: &mut self.pairs,
+            at: None,
         }
     }
 
