@@ -4,6 +4,7 @@ use crate::domain::Axis;
 use crate::equation::Equation;
 use crate::limits;
 use crate::moving::{Moving, Roots};
+use mainspring_mechanism::Pose;
 use std::f64::consts::PI;
 
 /// Least width of an element (scaled position): narrower ones lie within rounding of a critical position.
@@ -42,14 +43,14 @@ impl Element {
 
     /// v at u; for an upright element not defined.
     pub fn v_at(&self, eq: &Equation, frame: &Frame, u: f64) -> f64 {
-        let roots = eq.solve_v(&frame.moving, u);
-        self.pick(&roots, frame)
+        self.v_with(eq, frame, &frame.moving[0].place(u))
     }
 
-    pub fn pick(&self, roots: &Roots, frame: &Frame) -> f64 {
+    /// The same where the first body's pose is known.
+    pub fn v_with(&self, eq: &Equation, frame: &Frame, pose: &Pose) -> f64 {
         let middle = 0.5 * (self.v[0] + self.v[1]);
         let (low, high) = self.v_range();
-        let v = frame.axes[1].nearest(roots.root(self.branch), middle);
+        let v = frame.axes[1].nearest(eq.root_v(&frame.moving, pose, self.branch), middle);
         // Without a root (a body on its own axis) the ends agree to rounding.
         if v.is_finite() { v.clamp(low, high) } else { middle }
     }

@@ -76,6 +76,11 @@ impl Equation {
         moving[1].solve(self.carried[1], self.fixed(&moving[0].place(u)))
     }
 
+    /// One of them, with the first body at `pose`, but for whole turns.
+    pub fn root_v(&self, moving: &[Moving; 2], pose: &Pose, branch: f64) -> f64 {
+        moving[1].root(self.carried[1], self.fixed(pose), branch)
+    }
+
     /// F and its gradient.
     pub fn value(&self, moving: &[Moving; 2], u: f64, v: f64) -> Value {
         let poses = [moving[0].place(u), moving[1].place(v)];

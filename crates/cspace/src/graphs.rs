@@ -22,7 +22,9 @@ pub(crate) struct Graphs<'a> {
 impl Graphs<'_> {
     fn values(&self, u: f64) -> (f64, f64) {
         let frame = self.catalogue.frame;
-        (self.first.0.v_at(self.first.1, frame, u), self.second.0.v_at(self.second.1, frame, u))
+        let pose = frame.moving[0].place(u);
+        let value = |(element, eq): (&Element, &Equation)| element.v_with(eq, frame, &pose);
+        (value(self.first), value(self.second))
     }
 
     fn difference(&self, u: f64) -> f64 {
@@ -38,8 +40,9 @@ impl Graphs<'_> {
     /// dφ/du where both values are known.
     fn slope_at(&self, u: f64, (first, second): (f64, f64)) -> f64 {
         let frame = self.catalogue.frame;
+        let pose = frame.moving[0].place(u);
         let slope = |eq: &Equation, v: f64| {
-            let g = eq.value(&frame.moving, u, v);
+            let g = eq.value_at(&frame.moving, &[pose, frame.moving[1].place(v)]);
             -g.fu / g.fv
         };
         let d = slope(self.first.1, first) - slope(self.second.1, second);

@@ -100,6 +100,24 @@ impl Roots {
     }
 }
 
+/// A turn from one direction to another, give or take δ with `K cos δ = D`: K−D and K+D.
+struct Turned {
+    from: Vec2,
+    to: Vec2,
+    less: f64,
+    more: f64,
+}
+
+impl Turned {
+    /// The angle between both turned on by ±δ, of which tan δ/2 is known, at once.
+    fn root(&self, branch: f64) -> f64 {
+        let (less, more) = (self.less.max(0.0), self.more.max(0.0));
+        let (cos, sin) = (more - less, branch * 2.0 * (less * more).sqrt());
+        let (along, across) = (self.from.dot(self.to), self.from.cross(self.to));
+        (across * cos + along * sin).atan2(along * cos - across * sin)
+    }
+}
+
 /// Angle from `a` to `b`.
 fn angle_between(a: Vec2, b: Vec2) -> f64 {
     a.cross(b).atan2(a.dot(b))
@@ -150,26 +168,42 @@ impl Moving {
     }
 
     fn solve_turn(&self, carried: Carried, fixed: Fixed) -> Roots {
-        let mut roots = match (carried, fixed) {
-            (Carried::Point(p), Fixed::Point { at, rho }) => {
-                let w = at - self.center;
-                let (k, l) = (w.norm(), p.norm());
+        let Some(Turned { from, to, less, more }) = self.turned(carried, fixed) else { return Roots::NONE };
+        let roots = Roots::angle(angle_between(from, to), less, more);
+        Roots { base: self.sign * roots.base, ..roots }
+    }
+
+    /// `K cos δ = D` for the angle δ from where the carried feature is turned to `to`.
+    fn turned(&self, carried: Carried, fixed: Fixed) -> Option<Turned> {
+        match (carried, fixed) {
+            (Carried::Point(from), Fixed::Point { at, rho }) => {
+                let to = at - self.center;
+                let (k, l) = (to.norm(), from.norm());
                 let (less, more) = ((rho - k + l) * (rho + k - l), (k + l - rho) * (k + l + rho));
-                Roots::angle(angle_between(p, w), less, more)
+                Some(Turned { from, to, less, more })
             }
-            (Carried::Point(p), Fixed::Line { normal, offset }) => {
-                let (k, d) = (p.norm(), offset - normal.dot(self.center));
-                Roots::angle(angle_between(p, normal), k - d, k + d)
+            (Carried::Point(from), Fixed::Line { normal, offset }) => {
+                let (k, d) = (from.norm(), offset - normal.dot(self.center));
+                Some(Turned { from, to: normal, less: k - d, more: k + d })
             }
             (Carried::Line { normal, offset }, Fixed::Point { at, rho }) => {
-                let w = at - self.center;
-                let (k, d) = (w.norm(), offset + rho);
-                Roots::angle(angle_between(normal, w), k - d, k + d)
+                let to = at - self.center;
+                let (k, d) = (to.norm(), offset + rho);
+                Some(Turned { from: normal, to, less: k - d, more: k + d })
             }
-            (Carried::Line { .. }, Fixed::Line { .. }) => Roots::NONE,
-        };
-        roots.base *= self.sign;
-        roots
+            (Carried::Line { .. }, Fixed::Line { .. }) => None,
+        }
+    }
+
+    /// The root of one branch, as `solve` has it but for whole turns; half the work.
+    pub fn root(&self, carried: Carried, fixed: Fixed, branch: f64) -> f64 {
+        match self.kind {
+            Kind::Turn => {
+                self.turned(carried, fixed).map_or(f64::NAN, |t| self.sign * t.root(self.sign * branch))
+            }
+            Kind::Slide => self.solve_slide(carried, fixed).root(branch),
+            Kind::Still => f64::NAN,
+        }
     }
 
     fn solve_slide(&self, carried: Carried, fixed: Fixed) -> Roots {
