@@ -160,7 +160,8 @@ def test_the_film_is_the_walk(page, wheel):
 def test_a_start_in_a_corner_is_left_by_a_hair():
     mechanism = ms.load(ROOT / "examples" / "ratchet" / "ratchet.padl").compile()
     space = ms.configuration_space(mechanism, "wheel", "pawl")
-    assert space.component(space.start) is None
+    # On which side of the corner the start lies is left to rounding.
+    assert abs(space.gap([space.start]).gap[0]) < 1e-9
     film = push(space)
     assert film["end"] == "arrived"
     assert film["points"][0] == pytest.approx(space.start, abs=0.05)
