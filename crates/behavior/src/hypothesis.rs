@@ -4,47 +4,8 @@
 //! pattern, with a floor of ten integration tolerances; times to within P_t_match of D. A hypothesis formed late is
 //! credited with the instances already seen, so that no more than P_ignore + M (P_confirm + 1) points are needed.
 
+use crate::terms::{Fall, MatchOptions, Terms};
 use mainspring_dynamics::Ranges;
-
-/// Parameters of Algorithm 12, with the paper's names and defaults.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MatchOptions {
-    /// P_confirm = 2: instances that must match beyond the first.
-    pub confirm: u32,
-    /// P_range_fraction = 1e-5: minima count below this fraction of the greatest kinetic energy so far.
-    pub range_fraction: f64,
-    /// P_ignore = 4: minima passed over at the start.
-    pub ignore: u32,
-    /// P_t_match = 0.01, relative to D.
-    pub time_match: f64,
-    /// P_s_v_match = 0.02, relative to each variable's peak-to-peak.
-    pub state_match: f64,
-}
-
-impl Default for MatchOptions {
-    fn default() -> Self {
-        Self { confirm: 2, range_fraction: 1e-5, ignore: 4, time_match: 0.01, state_match: 0.02 }
-    }
-}
-
-/// How a coordinate is called in reasons.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Label {
-    pub name: String,
-    /// Told in degrees if it turns.
-    pub turns: bool,
-}
-
-impl Label {
-    fn says(&self, what: &str, found: f64, expected: f64) -> String {
-        let name = &self.name;
-        if self.turns {
-            let (found, expected) = (found.to_degrees(), expected.to_degrees());
-            return format!("{name} {what} {found:.4}°, expected {expected:.4}°");
-        }
-        format!("{name} {what} {found:.6}, expected {expected:.6}")
-    }
-}
 
 /// A point of comparison: a state, and how far the state ranged since the point before.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,20 +43,6 @@ pub struct Pattern {
     pub since: f64,
 }
 
-/// Changes smaller than these count as equal whatever the range: ten integration tolerances.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Floors {
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-}
-
-impl Candidate {
-    /// Matched by M · P_confirm instances beyond the first.
-    fn is_confirmed(&self, options: &MatchOptions) -> bool {
-        u64::from(self.belief) >= self.minima as u64 * u64::from(options.confirm)
-    }
-}
-
 /// Searches one series of points.
 #[derive(Clone, Debug, Default)]
 pub struct Series {
@@ -114,89 +61,89 @@ struct Candidate {
     matched_from: usize,
 }
 
+impl Candidate {
+    /// Matched by M · P_confirm instances beyond the first.
+    fn is_confirmed(&self, options: &MatchOptions) -> bool {
+        u64::from(self.belief) >= self.minima as u64 * u64::from(options.confirm)
+    }
+}
+
 impl Series {
     /// Takes in the next point; the pattern once it is confirmed.
-    pub fn add(
-        &mut self,
-        point: Point,
-        names: &[Label],
-        floors: &Floors,
-        options: &MatchOptions,
-    ) -> Option<Pattern> {
+    pub fn add(&mut self, point: Point, terms: &Terms) -> Option<Pattern> {
         self.points.push(point);
         let last = self.points.len() - 1;
-        if last < options.ignore as usize || last == 0 {
+        if last < terms.options.ignore as usize || last == 0 {
             return None;
         }
-        let ignore = (options.ignore as usize).saturating_sub(1);
         match self.present.take() {
-            None => self.form(1, last, ignore, floors, options),
-            Some(mut candidate) => match self.mismatch(&candidate, last, names, floors, options) {
+            None => self.form(1, last, terms),
+            Some(mut candidate) => match self.mismatch(&candidate, last, terms) {
                 None => {
                     candidate.belief += 1;
                     self.present = Some(candidate);
                 }
-                Some(why) => {
-                    let now = self.points[last].t;
-                    if let Some(h) = self.hypotheses.last_mut() {
-                        (h.fell, h.why) = (Some(now), Some(why));
-                    }
-                    self.form(candidate.minima + 1, last, ignore, floors, options);
-                }
+                Some(fall) => self.replace(&candidate, last, &fall, terms),
             },
         }
-        self.confirmed(last, options).or_else(|| self.reconsidered(last, ignore, floors, options))
+        self.drop_unlike(last, terms);
+        self.confirmed(last, terms).or_else(|| self.reconsidered(last, terms))
+    }
+
+    /// A hypothesis falls at the last point; the next longer one is formed.
+    fn replace(&mut self, fallen: &Candidate, last: usize, fall: &Fall, terms: &Terms) {
+        if let Some(h) = self.hypotheses.last_mut() {
+            (h.fell, h.why) = (Some(self.points[last].t), Some(fall.says(terms.labels)));
+        }
+        self.form(fallen.minima + 1, last, terms);
+    }
+
+    /// What was seen often enough does not go on where the shapes that meet are not the same each time.
+    fn drop_unlike(&mut self, last: usize, terms: &Terms) {
+        while let Some(candidate) = self.present.take_if(|c| c.is_confirmed(terms.options)) {
+            let Some(fall) = self.unlike(&candidate, last, terms) else {
+                self.present = Some(candidate);
+                return;
+            };
+            self.replace(&candidate, last, &fall, terms);
+        }
     }
 
     /// A shorter pattern that fell during a transient and has held since: formed again only when all the instances
     /// it needs are there already.
-    fn reconsidered(
-        &mut self,
-        last: usize,
-        ignore: usize,
-        floors: &Floors,
-        options: &MatchOptions,
-    ) -> Option<Pattern> {
+    fn reconsidered(&mut self, last: usize, terms: &Terms) -> Option<Pattern> {
         let tried = self.present.as_ref().map_or(0, |c| c.minima);
         let candidate = (1..tried)
-            .map(|minima| self.candidate(minima, last, ignore, floors, options))
-            .find(|c| c.is_confirmed(options))?;
+            .map(|minima| self.candidate(minima, last, terms))
+            .find(|c| c.is_confirmed(terms.options) && self.unlike(c, last, terms).is_none())?;
         let now = self.points[last].t;
         if let Some(h) = self.hypotheses.last_mut() {
             (h.fell, h.why) = (Some(now), Some("a shorter pattern holds".into()));
         }
         self.hypotheses.push(Hypothesis { minima: candidate.minima, formed: now, fell: None, why: None });
         self.present = Some(candidate);
-        self.confirmed(last, options)
+        self.confirmed(last, terms)
     }
 
     /// Forms the hypothesis of M points from the last instance.
-    fn form(&mut self, minima: usize, last: usize, ignore: usize, floors: &Floors, options: &MatchOptions) {
+    fn form(&mut self, minima: usize, last: usize, terms: &Terms) {
         if last < minima {
             return;
         }
         let formed = self.points[last].t;
         self.hypotheses.push(Hypothesis { minima, formed, fell: None, why: None });
-        self.present = Some(self.candidate(minima, last, ignore, floors, options));
+        self.present = Some(self.candidate(minima, last, terms));
     }
 
     /// The candidate of M points by the last instance, credited with the instances before that match it, as far as
     /// its confirmation needs.
-    fn candidate(
-        &self,
-        minima: usize,
-        last: usize,
-        ignore: usize,
-        floors: &Floors,
-        options: &MatchOptions,
-    ) -> Candidate {
+    fn candidate(&self, minima: usize, last: usize, terms: &Terms) -> Candidate {
         let (a, b) = (&self.points[last - minima], &self.points[last]);
         let (duration, change) = (b.t - a.t, change(a, b));
         let mut candidate = Candidate { minima, duration, change, belief: 0, matched_from: last - minima };
-        for end in (ignore + minima..last).rev() {
-            if candidate.is_confirmed(options)
-                || self.mismatch(&candidate, end, &[], floors, options).is_some()
-            {
+        let ignored = (terms.options.ignore as usize).saturating_sub(1);
+        for end in (ignored + minima..last).rev() {
+            if candidate.is_confirmed(terms.options) || self.mismatch(&candidate, end, terms).is_some() {
                 break;
             }
             candidate.belief += 1;
@@ -205,11 +152,8 @@ impl Series {
         candidate
     }
 
-    fn confirmed(&self, last: usize, options: &MatchOptions) -> Option<Pattern> {
-        let c = self.present.as_ref()?;
-        if !c.is_confirmed(options) {
-            return None;
-        }
+    fn confirmed(&self, last: usize, terms: &Terms) -> Option<Pattern> {
+        let c = self.present.as_ref().filter(|c| c.is_confirmed(terms.options))?;
         let start = last - c.minima;
         let (a, b) = (&self.points[start], &self.points[last]);
         Some(Pattern {
@@ -222,35 +166,51 @@ impl Series {
     }
 
     /// Why the instance that ends at a point contradicts the candidate; None if it matches.
-    fn mismatch(
-        &self,
-        c: &Candidate,
-        end: usize,
-        names: &[Label],
-        floors: &Floors,
-        options: &MatchOptions,
-    ) -> Option<String> {
+    fn mismatch(&self, c: &Candidate, end: usize, terms: &Terms) -> Option<Fall> {
         let (a, b) = (&self.points[end - c.minima], &self.points[end]);
         let duration = b.t - a.t;
-        if (duration - c.duration).abs() > options.time_match * c.duration {
-            return Some(format!("took {duration:.6}, expected {:.6}", c.duration));
+        if (duration - c.duration).abs() > terms.options.time_match * c.duration {
+            return Some(Fall::Took(duration, c.duration));
         }
-        let mut ranges = self.points[end].ranges.clone();
-        (end + 1 - c.minima..end).for_each(|k| ranges.merge(&self.points[k].ranges));
-        let text = |i: usize, what: &str, found: f64, expected: f64| match names.get(i) {
-            Some(label) => label.says(what, found, expected),
-            None => String::new(),
-        };
+        let near = self.nearness(c, end, terms);
         for (i, (found, expected)) in change(a, b).into_iter().zip(&c.change).enumerate() {
-            let spans = (ranges.q[i].1 - ranges.q[i].0, ranges.v[i].1 - ranges.v[i].0);
-            if (found.0 - expected.0).abs() > (options.state_match * spans.0).max(floors.q[i]) {
-                return Some(text(i, "moved by", found.0, expected.0));
+            let (q, v) = near(i);
+            if (found.0 - expected.0).abs() > q {
+                return Some(Fall::Moved(i, found.0, expected.0));
             }
-            if (found.1 - expected.1).abs() > (options.state_match * spans.1).max(floors.v[i]) {
-                return Some(text(i, "changed its velocity by", found.1, expected.1));
+            if (found.1 - expected.1).abs() > v {
+                return Some(Fall::Sped(i, found.1, expected.1));
             }
         }
         None
+    }
+
+    /// The coordinate whose shapes show that it moves on from instance to instance; None if none does.
+    fn unlike(&self, c: &Candidate, last: usize, terms: &Terms) -> Option<Fall> {
+        let near = self.nearness(c, last, terms);
+        let changes = change(&self.points[last - c.minima], &self.points[last]);
+        let off = |change: f64, period: f64| {
+            // Of an infinite period the only multiple is zero.
+            let multiple = if period.is_finite() { (change / period).round() * period } else { 0.0 };
+            (change - multiple).abs()
+        };
+        let shows = |(i, (q, _)): (usize, &(f64, f64))| {
+            let periods = terms.periods.get(i).into_iter().flatten();
+            periods.clone().any(|&period| off(*q, period) > near(i).0).then_some(Fall::Unlike(i, *q))
+        };
+        changes.iter().enumerate().find_map(shows)
+    }
+
+    /// How near changes of a coordinate's position and velocity count as equal, by how far it ranges in the instance that
+    /// ends at a point.
+    fn nearness<'s>(&self, c: &Candidate, end: usize, terms: &'s Terms) -> impl Fn(usize) -> (f64, f64) + 's {
+        let mut ranges = self.points[end].ranges.clone();
+        (end + 1 - c.minima..end).for_each(|k| ranges.merge(&self.points[k].ranges));
+        let share = terms.options.state_match;
+        move |i| {
+            let (q, v) = (ranges.q[i], ranges.v[i]);
+            ((share * (q.1 - q.0)).max(terms.floors.q[i]), (share * (v.1 - v.0)).max(terms.floors.v[i]))
+        }
     }
 }
 
@@ -262,7 +222,8 @@ fn change(a: &Point, b: &Point) -> Vec<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Floors, Label, MatchOptions, Point, Series};
+    use super::{Point, Series};
+    use crate::terms::{Floors, Label, MatchOptions, Terms};
     use mainspring_dynamics::Ranges;
 
     /// A pattern of M points: gaps between points repeat with period M, the position climbs by 1 each pattern.
@@ -282,7 +243,9 @@ mod tests {
                 let options = MatchOptions { ignore, ..MatchOptions::default() };
                 let mut series = Series::default();
                 let bound = ignore as usize + m * 3 + usize::from(ignore == 0);
-                let found = (0..bound).find_map(|k| series.add(point(k, m), &[], &floors, &options));
+                let labels = [Label { name: "wheel".into(), turns: true }];
+                let terms = Terms { options: &options, labels: &labels, floors: &floors, periods: &[] };
+                let found = (0..bound).find_map(|k| series.add(point(k, m), &terms));
                 let pattern = found.unwrap_or_else(|| panic!("not found for M = {m}, ignoring {ignore}"));
                 assert_eq!(pattern.minima, m);
                 assert!((pattern.change[0].0 - 1.0).abs() < 1e-12);
@@ -294,17 +257,31 @@ mod tests {
     fn hypotheses_are_formed_once_each_in_order() {
         let floors = Floors { q: vec![0.0], v: vec![0.0] };
         let mut series = Series::default();
+        let labels = [Label { name: "wheel".into(), turns: true }];
+        let options = MatchOptions::default();
+        let terms = Terms { options: &options, labels: &labels, floors: &floors, periods: &[] };
         for k in 0..40 {
-            series.add(
-                point(k, 5),
-                &[Label { name: "wheel".into(), turns: true }],
-                &floors,
-                &MatchOptions::default(),
-            );
+            series.add(point(k, 5), &terms);
         }
         let formed: Vec<usize> = series.hypotheses.iter().map(|h| h.minima).collect();
         assert_eq!(formed, vec![1, 2, 3, 4, 5]);
         assert!(series.hypotheses[..4].iter().all(|h| h.fell.is_some() && h.why.is_some()));
         assert!(series.hypotheses[4].fell.is_none());
+    }
+
+    /// The position climbs by 1 a pattern, and looks the same after every 3: a pattern three times as long is found.
+    #[test]
+    fn patterns_go_on_only_where_shapes_are_alike() {
+        let floors = Floors { q: vec![0.0], v: vec![0.0] };
+        let (options, labels) = (MatchOptions::default(), [Label { name: "rack".into(), turns: false }]);
+        for (m, period, expected) in [(1, 3.0, Some(3)), (2, 3.0, Some(6)), (2, f64::INFINITY, None)] {
+            let periods = [vec![1.0, period]];
+            let terms = Terms { options: &options, labels: &labels, floors: &floors, periods: &periods };
+            let mut series = Series::default();
+            let found = (0..60).find_map(|k| series.add(point(k, m), &terms));
+            assert_eq!(found.map(|p| p.minima), expected);
+            let why = series.hypotheses.iter().filter_map(|h| h.why.as_deref());
+            assert!(why.clone().any(|w| w == "rack moves on by 1.000000, where its shape is not the same"));
+        }
     }
 }

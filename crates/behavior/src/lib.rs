@@ -4,8 +4,10 @@ mod hypothesis;
 mod options;
 mod passages;
 mod predict;
+mod terms;
 
-pub use hypothesis::{Floors, Hypothesis, Label, MatchOptions, Pattern, Point, Series};
+pub use hypothesis::{Hypothesis, Pattern, Point, Series};
 pub use options::PredictOptions;
 pub use passages::whole_turns;
 pub use predict::{Basis, NoPattern, Outcome, Prediction, predict};
+pub use terms::{Floors, Label, MatchOptions, Terms};

@@ -1,6 +1,6 @@
 //! What a prediction may cost, and how closely patterns must match.
 
-use crate::hypothesis::MatchOptions;
+use crate::terms::MatchOptions;
 use mainspring_dynamics::Contact;
 
 /// Options of `predict`.

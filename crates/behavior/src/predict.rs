@@ -5,9 +5,10 @@
 //! the instances that support its pattern. The kinetic energy is that of what moves freely: the motion of drives is
 //! given. While a table still has points ahead nothing is concluded, for what comes is not in the state.
 
-use crate::hypothesis::{Floors, Hypothesis, Label, Pattern, Point, Series};
+use crate::hypothesis::{Hypothesis, Pattern, Point, Series};
 use crate::options::PredictOptions;
 use crate::passages::whole_turns;
+use crate::terms::{Floors, Label, Terms};
 use mainspring_dynamics::{Closed, Engine, Minimum, Options, Ranges, Run, Status, Track, start};
 use mainspring_mechanism::{ContactSource, Coordinate, Drive, Motion, System};
 use std::f64::consts::TAU;
@@ -139,6 +140,8 @@ struct Follower<'o> {
     options: &'o PredictOptions,
     system: &'o System,
     names: Vec<Label>,
+    /// Of each coordinate the changes after which its shapes look the same.
+    periods: Vec<Vec<f64>>,
     /// One for each basis, in its order.
     series: [Series; 3],
     /// Ranges since the last point of each series.
@@ -168,6 +171,7 @@ impl<'o> Follower<'o> {
             names: (0..n)
                 .map(|i| Label { name: system.coordinates[i].name.clone(), turns: turns(&i) })
                 .collect(),
+            periods: system.shape_periods(),
             series: std::array::from_fn(|_| Series::default()),
             ranges: std::array::from_fn(|_| Ranges::empty(n)),
             seen: 0,
@@ -261,7 +265,9 @@ impl<'o> Follower<'o> {
         let ranges = std::mem::replace(&mut self.ranges[k], Ranges::empty(self.names.len()));
         let floors = self.floors(run);
         let point = Point { t, q, v, ranges };
-        let pattern = self.series[k].add(point, &self.names, &floors, &self.options.matching)?;
+        let options = &self.options.matching;
+        let terms = Terms { options, labels: &self.names, floors: &floors, periods: &self.periods };
+        let pattern = self.series[k].add(point, &terms)?;
         if !self.moves(k, &pattern, &floors) {
             return None;
         }

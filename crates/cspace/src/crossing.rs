@@ -5,21 +5,16 @@
 //! bodies overlaps. It is enough that at the box's centre every end is farther from the other span than both move.
 
 use crate::around::Around;
+use crate::recent::Recent;
 use crate::region::{Ignored, Regions};
 use crate::section::Section;
 use crate::tree::{Discs, PENDING};
 
 /// Pairs of tree nodes looked at for one box at most.
 const EFFORT: usize = 1500;
-/// Pairs of leaves remembered.
-const REMEMBERED: usize = 8;
-
 /// Leaves whose spans crossed throughout boxes lately, by pair of sections: likely to do so in the next one too.
 #[derive(Debug, Default)]
-pub(crate) struct Crossed {
-    leaves: [Option<(usize, (u32, u32))>; REMEMBERED],
-    next: usize,
-}
+pub(crate) struct Crossed(Recent<(usize, (u32, u32))>);
 
 impl Crossed {
     /// Is every configuration of the box surely blocked? False, after looking at `effort` pairs of tree nodes or all, means
@@ -29,14 +24,13 @@ impl Crossed {
             let (i, j, ignored) = &regions.facing[f];
             ([&regions.sections[0][*i], &regions.sections[1][*j]], ignored)
         };
-        if self.leaves.iter().flatten().any(|&(f, leaves)| cross(facing(f).0, around, leaves)) {
+        if self.0.iter().any(|&(f, leaves)| cross(facing(f).0, around, leaves)) {
             return true;
         }
         for f in 0..regions.facing.len() {
             let (sections, ignored) = facing(f);
             if let Some(leaves) = find(sections, ignored, around, effort.min(EFFORT)) {
-                self.leaves[self.next % REMEMBERED] = Some((f, leaves));
-                self.next += 1;
+                self.0.remember((f, leaves));
                 return true;
             }
         }

@@ -6,6 +6,7 @@
 
 use crate::element::Frame;
 use crate::moving::Moving;
+use crate::recent::Recent;
 use crate::reduce::relative;
 use crate::section::Section;
 use crate::span::Span;
@@ -13,9 +14,6 @@ use crate::tree::{Discs, PENDING};
 use crate::within::Within;
 use mainspring_geometry::Vec2;
 use mainspring_mechanism::Pose;
-
-/// Pairs of spans remembered.
-const REMEMBERED: usize = 8;
 
 /// Two spans that never move against each other and touch: no overlap.
 pub(crate) type Ignored = Vec<(u32, u32)>;
@@ -31,10 +29,9 @@ pub(crate) struct Regions {
 }
 
 impl Regions {
-    pub fn new(sections: [Vec<Section>; 2], frame: &Frame) -> Self {
+    pub fn new(sections: [Vec<Section>; 2], frame: &Frame, within: &Within) -> Self {
         let size = frame.size;
         let rounding = 1e-12 * size;
-        let within = Within::new(frame, sections.each_ref().map(Vec::as_slice));
         let [first, second] = sections;
         let sections: [Vec<Section>; 2] = [(0, first), (1, second)]
             .map(|(k, all)| all.into_iter().map(|s| s.within(|disc| within.reach(k, disc))).collect());
@@ -59,13 +56,13 @@ impl Regions {
     pub fn overlap_again(&self, poses: &[Pose; 2], met: &mut Met) -> bool {
         let rel = relative(&poses[0], &poses[1]);
         let back = relative(&poses[1], &poses[0]);
-        if met.lately.iter().flatten().any(|&(f, spans)| self.touch(&rel, f, spans)) {
+        if met.iter().any(|&(f, spans)| self.touch(&rel, f, spans)) {
             return true;
         }
         self.facing.iter().enumerate().any(|(f, (i, j, ignored))| {
             let (a, b) = (&self.sections[0][*i], &self.sections[1][*j]);
             if let Some(spans) = meeting(a, b, &rel, self.rounding, ignored) {
-                met.remember(f, spans);
+                met.remember((f, spans));
                 return true;
             }
             a.reaches_into(b, &rel, ignored, self.rounding)
@@ -111,18 +108,7 @@ impl Regions {
 }
 
 /// Spans that met when bodies were found to overlap lately, by pair of sections: likely to meet in the next configuration too.
-#[derive(Debug, Default)]
-pub(crate) struct Met {
-    lately: [Option<(usize, (usize, usize))>; REMEMBERED],
-    next: usize,
-}
-
-impl Met {
-    fn remember(&mut self, facing: usize, spans: (usize, usize)) {
-        self.lately[self.next % REMEMBERED] = Some((facing, spans));
-        self.next += 1;
-    }
-}
+pub(crate) type Met = Recent<(usize, (usize, usize))>;
 
 /// Spans of two sections that meet, if any do.
 fn meeting(a: &Section, b: &Section, rel: &Pose, rounding: f64, ignored: &Ignored) -> Option<(usize, usize)> {

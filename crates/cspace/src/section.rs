@@ -5,7 +5,7 @@ use crate::slat::Slat;
 use crate::span::Span;
 use crate::tree::{Discs, PENDING};
 use mainspring_geometry::{Layer, Segment, Vec2};
-use mainspring_mechanism::Pose;
+use mainspring_mechanism::{Mark, Pose};
 
 /// One layer of a body in local coordinates.
 #[derive(Clone, Debug)]
@@ -76,6 +76,18 @@ impl Section {
             .collect();
         self.close = (chosen.len() < discs.len()).then(|| Cover::over(&discs, chosen));
         self
+    }
+
+    /// Its spans, for the order of its symmetry about the local origin.
+    pub fn marks(&self) -> Vec<Mark> {
+        let of = |(span, feature): (&Span, &usize)| {
+            let radius = match span {
+                Span::Arc { radius, .. } => *radius,
+                Span::Line { .. } => 0.0,
+            };
+            Mark { middle: span.disc().0, ends: span.ends(), radius, counts: *feature != usize::MAX }
+        };
+        self.spans.iter().zip(&self.features).map(of).collect()
     }
 
     /// Over the spans that may meet the other body.

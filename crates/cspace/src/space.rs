@@ -17,11 +17,11 @@ use crate::proofs::Proofs;
 use crate::range::axis;
 use crate::reduce::{Reduced, reduce};
 use crate::region::Regions;
+use crate::section::Section;
 use crate::slabs::{Atlas, Slabs, build};
-use crate::symmetry;
 use crate::within::Within;
 use crate::witness::Witnesses;
-use mainspring_mechanism::System;
+use mainspring_mechanism::{System, order};
 use std::sync::{Arc, OnceLock};
 
 /// Free and blocked space of two bodies over two coordinates, made once for a system at given parameters.
@@ -86,7 +86,8 @@ impl ConfigurationSpace {
         let mut repeats = [1, 1];
         for k in 0..2 {
             if options.periodic && reduced.moving[k].turns() && options.windows[k].is_none() {
-                repeats[k] = symmetry::order(&sections[k], 1e-9 * system.size);
+                let marks: Vec<_> = sections[k].iter().map(Section::marks).collect();
+                repeats[k] = order(&marks, 1e-9 * system.size).unwrap_or(1);
             }
         }
         let mut axes = Vec::new();
@@ -95,8 +96,9 @@ impl ConfigurationSpace {
             axes.push(axis(k, &reduced, &parts, options.windows[k], repeats[k], name)?);
         }
         let frame = Frame { moving: reduced.moving, axes: [axes[0], axes[1]], size: system.size };
-        let regions = Regions::new(sections, &frame);
-        Made { system, coordinates, bodies, reduced, contact, frame, regions, parts, repeats }
+        let within = Within::new(&frame, sections.each_ref().map(Vec::as_slice));
+        let regions = Regions::new(sections, &frame, &within);
+        Made { system, coordinates, bodies, reduced, contact, frame, within, regions, parts, repeats }
             .finish(options.budget, progress)
     }
 
@@ -138,6 +140,7 @@ struct Made<'a> {
     reduced: Reduced,
     contact: Contact<'a>,
     frame: Frame,
+    within: Within,
     regions: Regions,
     parts: [Vec<Part>; 2],
     repeats: [u32; 2],
@@ -146,8 +149,7 @@ struct Made<'a> {
 impl Made<'_> {
     fn finish(self, budget: usize, progress: &Progress) -> Result<ConfigurationSpace, SpaceError> {
         let size = self.frame.size;
-        let within = Within::new(&self.frame, self.regions.sections.each_ref().map(Vec::as_slice));
-        let witnesses = Witnesses::new(&self.regions, self.repeats, &within, size);
+        let witnesses = Witnesses::new(&self.regions, self.repeats, &self.within, size);
         if let Some(k) = witnesses.thin() {
             return Err(SpaceError::Thin { body: self.system.bodies[self.reduced.bodies[k]].name.clone() });
         }
@@ -158,7 +160,8 @@ impl Made<'_> {
         let levers =
             [0, 1].map(|k| self.parts[k].iter().map(|p| p.lever).fold(1e-3 * size.min(1.0), f64::max));
         let kind = |i: usize, j: usize| self.contact.kind(i, j);
-        let mut catalogue = Catalogue::new(&self.frame, [&self.parts[0], &self.parts[1]], &within, &kind);
+        let of_bodies = [&self.parts[0][..], &self.parts[1][..]];
+        let mut catalogue = Catalogue::new(&self.frame, of_bodies, &self.within, &kind);
         let mut cuts = Cuts::default();
         let mut work = Work::default();
         if self.contact.exists() {

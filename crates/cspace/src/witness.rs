@@ -42,7 +42,7 @@ impl Inside {
     fn new(section: &Section, repeats: u32, size: f64, reach: impl Fn((Vec2, f64)) -> bool) -> Self {
         let total: f64 = section.spans.iter().map(|s| s.length()).sum();
         let turns: Vec<Pose> =
-            (0..repeats).map(|k| turned(f64::from(k) * TAU / f64::from(repeats))).collect();
+            (0..repeats).map(|k| Pose::turn(f64::from(k) * TAU / f64::from(repeats))).collect();
         let (mut discs, mut thin) = (Vec::new(), false);
         for (span, convex) in section.spans.iter().zip(&section.convex) {
             let at = span.disc().0;
@@ -76,12 +76,6 @@ fn in_first_sector(p: Vec2, repeats: u32) -> bool {
     let sector = TAU / f64::from(repeats);
     let angle = p.y.atan2(p.x).rem_euclid(TAU);
     repeats == 1 || angle <= sector + NEARLY || angle >= TAU - NEARLY
-}
-
-/// A turn about the origin.
-fn turned(angle: f64) -> Pose {
-    let (sin, cos) = angle.sin_cos();
-    Pose { cos, sin, shift: Vec2::default() }
 }
 
 /// The greatest disc inside that touches the boundary at `p` with inward normal `n`, a little smaller.

@@ -1,6 +1,7 @@
 //! From solids to a mechanism: kinematic pairs, subsystems, possible interactions, gap functions.
 
 // Contact: features, gaps, where they may close.
+mod alike;
 mod boundary;
 mod constraint;
 mod contact_law;
@@ -14,6 +15,7 @@ mod overlap;
 mod placed;
 mod places;
 mod relative;
+mod repeats;
 mod source;
 mod system;
 mod tree;
@@ -30,6 +32,7 @@ pub use overlap::{Overlaps, Successor, is_on};
 pub use placed::{Field, MAX_CHAIN, MAX_ROW, Placed, PointMotion, Row};
 pub use places::{Place, Sway, places};
 pub use relative::{Approach, Relative, approach, gap_between};
+pub use repeats::{Mark, order};
 pub use source::{Candidate, ContactId, ContactSource, DirectSearch, feature_distance};
 pub use system::{Body, Coordinate, Joint, Motion, Pose};
 pub use tree::{FeatureTree, Node};

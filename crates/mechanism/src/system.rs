@@ -84,6 +84,13 @@ impl<S: Scalar> Pose<S> {
         Self { cos: S::constant(1.0), sin: zero, shift: Vec2::new(zero, zero) }
     }
 
+    /// A turn about the origin by an angle in radians.
+    pub fn turn(angle: S) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        let zero = S::constant(0.0);
+        Self { cos, sin, shift: Vec2::new(zero, zero) }
+    }
+
     /// The image of a direction.
     pub fn rotate(&self, d: Vec2<S>) -> Vec2<S> {
         Vec2::new(self.cos * d.x - self.sin * d.y, self.sin * d.x + self.cos * d.y)
@@ -127,9 +134,7 @@ impl Motion {
     pub fn pose<S: Scalar>(&self, x: S) -> Pose<S> {
         match *self {
             Motion::Turn { center } => {
-                let (sin, cos) = x.sin_cos();
-                let c = Vec2::constant(center);
-                let turn = Pose { cos, sin, shift: Vec2::new(S::constant(0.0), S::constant(0.0)) };
+                let (c, turn) = (Vec2::constant(center), Pose::turn(x));
                 Pose { shift: c - turn.rotate(c), ..turn }
             }
             Motion::Slide { direction } => {
