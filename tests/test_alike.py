@@ -1,4 +1,4 @@
-"""Patterns go on only where the shapes that meet are the same: wheels with like teeth, and with one tooth missing."""
+"""Patterns go on only where the shapes that meet are the same: like teeth, and one of them missing."""
 
 import math
 

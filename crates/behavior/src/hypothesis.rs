@@ -43,6 +43,9 @@ pub struct Pattern {
     pub since: f64,
 }
 
+/// A coordinate moves on by at least this share of how far it ranges from point to point; less is a motion that dies out.
+const GETS_ON: f64 = 0.1;
+
 /// Searches one series of points.
 #[derive(Clone, Debug, Default)]
 pub struct Series {
@@ -187,18 +190,22 @@ impl Series {
 
     /// The coordinate whose shapes show that it moves on from instance to instance; None if none does.
     fn unlike(&self, c: &Candidate, last: usize, terms: &Terms) -> Option<Fall> {
-        let near = self.nearness(c, last, terms);
-        let changes = change(&self.points[last - c.minima], &self.points[last]);
+        let start = last - c.minima;
+        let instance = &self.points[start + 1..=last];
         let off = |change: f64, period: f64| {
             // Of an infinite period the only multiple is zero.
             let multiple = if period.is_finite() { (change / period).round() * period } else { 0.0 };
             (change - multiple).abs()
         };
         let shows = |(i, (q, _)): (usize, &(f64, f64))| {
-            let periods = terms.periods.get(i).into_iter().flatten();
-            periods.clone().any(|&period| off(*q, period) > near(i).0).then_some(Fall::Unlike(i, *q))
+            // From point to point, not over an instance of many, lest one tooth of a hundred be lost in the difference.
+            let widest = instance.iter().map(|p| p.ranges.q[i].1 - p.ranges.q[i].0).fold(0.0, f64::max);
+            let near = (terms.options.state_match * widest).max(terms.floors.q[i]);
+            let mut periods = terms.periods.get(i).into_iter().flatten();
+            (q.abs() > GETS_ON * widest && periods.any(|&period| off(*q, period) > near))
+                .then_some(Fall::Unlike(i, *q))
         };
-        changes.iter().enumerate().find_map(shows)
+        change(&self.points[start], &self.points[last]).iter().enumerate().find_map(shows)
     }
 
     /// How near changes of a coordinate's position and velocity count as equal, by how far it ranges in the instance that
