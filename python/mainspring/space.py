@@ -262,7 +262,8 @@ def configuration_space(
     held
         Positions of other joints that move the two parts, by part; by default those of the start.
     progress
-        Called now and then with the part done, 0 to 1; returning False raises KeyboardInterrupt.
+        Called with the part done: 0 first, then now and then, 1 last. Returning False before raises
+        KeyboardInterrupt.
 
     Raises
     ------

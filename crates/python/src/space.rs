@@ -16,13 +16,20 @@ type Point = (f64, f64);
 type Floats<'py> = Bound<'py, PyArray1<f64>>;
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
 
-/// Makes the map in a thread of its own, so that Ctrl-C is heard; tells `progress` the part done.
+fn stopped() -> PyErr {
+    PyKeyboardInterrupt::new_err("stopped before the map was made")
+}
+
+/// Makes the map in a thread of its own, so that Ctrl-C is heard; tells `progress` the part done, 0 first and 1 last.
 pub fn make(
     py: Python<'_>,
     mechanism: &Mechanism,
     request: SpaceRequest,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PySpace> {
+    if !ask(py, progress.as_ref(), 0.0)? {
+        return Err(stopped());
+    }
     let (send, mut receive) = mpsc::channel();
     let (mechanism, shared) = (mechanism.clone(), Arc::new(Progress::default()));
     let own = shared.clone();
@@ -34,13 +41,17 @@ pub fn make(
         let waited = py.detach(move || (receive.recv_timeout(LOOK), receive));
         receive = waited.1;
         match waited.0 {
-            Ok(made) => return Ok(PySpace(Arc::new(made.map_err(bad_input)?))),
+            Ok(made) => {
+                let space = PySpace(Arc::new(made.map_err(bad_input)?));
+                ask(py, progress.as_ref(), 1.0)?; // a map that is made is kept, whatever the answer
+                return Ok(space);
+            }
             Err(mpsc::RecvTimeoutError::Timeout) => {
                 let go_on = ask(py, progress.as_ref(), shared.done());
                 if !matches!(go_on, Ok(true)) {
                     shared.stop();
                     go_on?;
-                    return Err(PyKeyboardInterrupt::new_err("stopped before the map was made"));
+                    return Err(stopped());
                 }
             }
             Err(fault) => return Err(PyValueError::new_err(fault.to_string())),
