@@ -78,4 +78,4 @@ def test_a_map_tells_its_progress_and_can_be_stopped():
     with pytest.raises(KeyboardInterrupt):
         ms.configuration_space(mechanism, "left", "right", progress=lambda part: part == 0)
     with pytest.raises(KeyboardInterrupt):
-        ms.configuration_space(mechanism, "left", "right", progress=lambda part: False)
+        ms.configuration_space(mechanism, "left", "right", progress=lambda part: part > 0)
