@@ -16,7 +16,7 @@ use crate::path::Path;
 use crate::runge_kutta::{Equations, Polynomial, Step};
 use crate::settle::Closed;
 use crate::world::World;
-use mainspring_mechanism::Candidate;
+use mainspring_mechanism::{Candidate, Indices};
 
 /// Velocities below this fraction of what the greatest speeds make likely are no scale of their own.
 const SLOWEST: f64 = 1e-6;
@@ -34,11 +34,11 @@ const GRAIN: f64 = 16.0;
 #[derive(Clone, Debug, Default)]
 pub struct Component {
     /// Those that move freely.
-    pub coordinates: Vec<usize>,
+    pub coordinates: Indices,
     /// Those that dry friction holds.
-    pub stuck: Vec<usize>,
+    pub stuck: Indices,
     /// Indices into `System::coupled`.
-    blocks: Vec<usize>,
+    blocks: Indices,
     pub contacts: Vec<Candidate>,
     /// For each contact one on the other side of what it touches, closed as well: the pair holds both ways.
     pub backs: Vec<Option<Candidate>>,
@@ -66,17 +66,17 @@ pub struct Tolerance<'a> {
 
 impl Component {
     /// Of the coordinates of a group, driven ones left out, with its contacts among all that are closed.
-    pub fn new(world: &World, group: Vec<usize>, contacts: Vec<Candidate>, closed: &[Closed]) -> Self {
+    pub fn new(world: &World, group: Indices, contacts: Vec<Candidate>, closed: &[Closed]) -> Self {
         let opposed = |c: &Candidate| {
             closed.iter().map(|other| other.candidate).find(|other| are_opposed(world, c, other))
         };
         let backs = contacts.iter().map(opposed).collect();
-        let (stuck, coordinates): (Vec<usize>, Vec<usize>) = group.into_iter().partition(|&i| world.stuck[i]);
+        let (stuck, coordinates): (Indices, Indices) = group.into_iter().partition(|&i| world.stuck[i]);
         let holds = |k: &usize| {
             let members = &world.system.coupled[*k].coordinates;
             members.iter().any(|i| coordinates.contains(i) || stuck.contains(i))
         };
-        let blocks: Vec<usize> = (0..world.system.coupled.len()).filter(holds).collect();
+        let blocks: Indices = (0..world.system.coupled.len()).filter(holds).collect();
         let tied = blocks.iter().flat_map(|&k| world.system.coupled[k].coordinates.iter().copied());
         let constraints = Constraints::new(world, &contacts, tied);
         let few = if blocks.is_empty() { Few::new(world, &coordinates, &contacts) } else { None };

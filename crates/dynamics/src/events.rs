@@ -3,7 +3,8 @@
 use crate::linear::Small;
 use crate::settle::{Closed, Settled};
 use crate::world::World;
-use mainspring_mechanism::{Candidate, ContactId};
+use mainspring_mechanism::{Candidate, ContactId, Indices};
+use std::sync::Arc;
 
 /// What happened at a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -15,6 +16,9 @@ pub enum EventKind {
     /// A contact that was closed is open from now on.
     Release,
 }
+
+/// Groups of bodies, shared by the entries of one instant.
+pub type Tied = Arc<[Indices]>;
 
 /// One entry of the log.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +32,7 @@ pub struct Event {
     pub impulse: f64,
     /// Groups of two or more bodies tied by closed contacts after this instant, the fixed ones with the frame
     /// (Gelsey 1995, Fig. 8). Sorted.
-    pub moving_together: Vec<Vec<usize>>,
+    pub moving_together: Tied,
 }
 
 /// The entries of one instant, in the order impacts, releases, closes.
@@ -56,14 +60,14 @@ pub fn entries(world: &World, t: f64, before: &[Closed], settled: &Settled) -> V
 }
 
 /// Bodies tied by closed contacts, in groups of two or more.
-pub fn moving_together(world: &World, closed: &[Closed]) -> Vec<Vec<usize>> {
+pub fn moving_together(world: &World, closed: &[Closed]) -> Tied {
     let mut group: Small<usize, 16> = (0..world.system.bodies.len()).collect();
     for contact in closed {
         let (a, b) = world.bodies(&contact.candidate);
         let (from, to) = (group[a].max(group[b]), group[a].min(group[b]));
         group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
     }
-    let members = |g: usize| (g..group.len()).filter(|&body| group[body] == g).collect::<Vec<_>>();
+    let members = |g: usize| (g..group.len()).filter(|&body| group[body] == g).collect::<Indices>();
     let tied = |g: &usize| group[*g] == *g && group[g + 1..].contains(g);
     (0..group.len()).filter(tied).map(members).collect()
 }

@@ -195,8 +195,8 @@ impl Motion<'_> {
             samples.push(middle);
             return;
         }
-        // A step of the integrator is smooth: few samples tell its shape.
-        let smooth = self.paths.iter().all(|p| p.is_rest() || matches!(p, Path::Step { .. }));
+        // Few samples tell the shape of what is smooth.
+        let smooth = self.paths.iter().all(|p| p.is_smooth(to.t - from.t));
         let short = (smooth || depth >= 3) && self.is_monotone([from, middle, to], bend);
         if !short {
             self.subdivide(from, middle, depth + 1, samples);

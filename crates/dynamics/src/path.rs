@@ -96,6 +96,15 @@ impl Path {
     pub fn is_rest(&self) -> bool {
         matches!(self, Path::Rest { .. })
     }
+
+    /// Is its shape simple over a time `dt`: at rest, within a step of the integrator, or within a flight's own time?
+    pub fn is_smooth(&self, dt: f64) -> bool {
+        match self {
+            Path::Rest { .. } | Path::Step { .. } => true,
+            Path::Flight(flight) => dt <= flight.panel().0,
+            Path::Driven(_) => false,
+        }
+    }
 }
 
 /// A path with the stretch of time it covers.

@@ -142,6 +142,7 @@ fn look_along(
     found: &mut Found,
 ) {
     let mut sight = Sight::new(world, interaction, stretch, stretch.from);
+    let mut marches = Small::new();
     let mut t = stretch.from;
     for _ in 0..MOST_STEPS {
         if t >= found.clear_until {
@@ -152,7 +153,7 @@ fn look_along(
         let state = (sight.q.as_slice(), sight.v.as_slice());
         let (end, pace) =
             horizon(world, interaction, stretch, state, (travelled, room), t, found.clear_until);
-        let mut marches = within_reach(world, &sight, interaction, watched, (end, pace));
+        begin_within_reach(world, &sight, interaction, watched, (end, pace), &mut marches);
         follow(world, &mut sight, &mut marches, end, real, found);
         t = end;
     }
@@ -162,20 +163,21 @@ fn look_along(
     }
 }
 
-/// The contacts of an interaction that may close from the time in sight to `end`.
-fn within_reach<'a>(
+/// Begins marches along the contacts of an interaction that may close from the time in sight to `end`.
+fn begin_within_reach<'a>(
     world: &World<'a>,
     sight: &Sight,
     interaction: usize,
     watched: &[(ContactId, Watch)],
     (end, pace): (f64, Pace),
-) -> Small<March<'a>, 8> {
+    marches: &mut Small<March<'a>, 8>,
+) {
     let sides = world.travelled(interaction, &sight.q);
     let farthest = sides[0] + sides[1] + pace.total() * (end - sight.t);
     let relative = Relative::pose(&sight.placed.0.pose, &sight.placed.1.pose);
     let turn = pace.turning() * (end - sight.t) + sight.stretch.outside + 1e-6;
     let closed = || sight.stretch.components.iter().flat_map(|c| &c.0.contacts);
-    let mut marches = Small::new();
+    marches.clear();
     for candidate in world.listed(interaction).iter().filter(|c| c.distance <= farthest) {
         let shares = world.shares(candidate);
         let speed = pace.shared_total(shares);
@@ -193,7 +195,6 @@ fn within_reach<'a>(
             marches.push(March::new((a, b), candidate, pace.shared(shares), floor, sight.t));
         }
     }
-    marches
 }
 
 /// Marches along all contacts on one clock: places are shared by all contacts that are due soon.

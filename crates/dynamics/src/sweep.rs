@@ -34,7 +34,7 @@ pub struct Places {
 #[derive(Clone, Copy, Debug)]
 struct Landing {
     candidate: Candidate,
-    /// Position of the coordinate.
+    /// Position of the coordinate within its period.
     q: f64,
     /// The direction of its motion in which the gap falls, 0 for both.
     closes: i8,
@@ -110,7 +110,7 @@ fn find_places(world: &mut World, (interaction, coordinate): (usize, usize), sig
             if place.edge_margin > -slack && place.cone_margin > -SLACK - sight.stretch.outside {
                 let id = ContactId { interaction: interaction as u32, first, second };
                 let closes = f64::from(place.closes) * direction.signum();
-                let q = sight.q[coordinate] + place.offset / direction;
+                let q = kept.within_period(sight.q[coordinate] + place.offset / direction);
                 let candidate = Candidate { id, kind, distance: 0.0 };
                 kept.list.push(Landing { candidate, q, closes: closes as i8 });
             }
@@ -147,12 +147,13 @@ impl<'s, 'a> Sweep<'s, 'a> {
         let mut ways = [f64::INFINITY; 2];
         let mut kept: Small<ContactId> = Small::new();
         let places = self.places;
+        let here = places.within_period(state.q);
         for landing in &places.list {
             let id = landing.candidate.id;
             if self.left_out.contains(&id) {
                 continue;
             }
-            let [up, down] = places.ways(landing.q - state.q);
+            let [up, down] = places.ways(landing.q - here);
             let marching = self.marches.iter().any(|m| m.candidate.id == id);
             let nearest = up.min(down);
             if nearest <= if marching { 2.0 * self.near } else { self.near } {
@@ -226,10 +227,15 @@ impl<'s, 'a> Sweep<'s, 'a> {
 }
 
 impl Places {
-    /// How far on, and how far back, a place is that lies `way` further on.
+    /// A position, less whole periods.
+    fn within_period(&self, q: f64) -> f64 {
+        if self.period < f64::INFINITY { q.rem_euclid(self.period) } else { q }
+    }
+
+    /// How far on, and how far back, a place is that lies `way` further on within the period.
     fn ways(&self, way: f64) -> [f64; 2] {
         if self.period < f64::INFINITY {
-            let up = way.rem_euclid(self.period);
+            let up = if way < 0.0 { way + self.period } else { way };
             return [up, self.period - up];
         }
         if way >= 0.0 { [way, f64::INFINITY] } else { [f64::INFINITY, -way] }

@@ -1,12 +1,12 @@
 //! Coordinates tied together by contacts and masses.
 
 use crate::inertia::Freedom;
-use mainspring_mechanism::{Row, join_sharing};
+use mainspring_mechanism::{Indices, Row, join_sharing};
 
 /// Coordinates that something ties together: a contact (an index into the rows) or masses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tie {
-    pub coordinates: Vec<usize>,
+    pub coordinates: Indices,
     pub contact: Option<usize>,
 }
 
@@ -22,13 +22,13 @@ impl Tie {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
     /// In increasing order.
-    pub coordinates: Vec<usize>,
+    pub coordinates: Indices,
     /// Indices into the rows.
-    pub contacts: Vec<usize>,
+    pub contacts: Indices,
 }
 
 /// Sorts ties into groups that share coordinates, in a fixed order. Ties without coordinates are left out.
-pub fn groups(ties: Vec<Tie>) -> Vec<Group> {
+pub fn groups(ties: impl IntoIterator<Item = Tie>) -> Vec<Group> {
     let sets = ties.into_iter().map(|tie| (tie.coordinates, tie.contact.into_iter().collect()));
     let group = |(coordinates, contacts)| Group { coordinates, contacts };
     join_sharing(sets).into_iter().map(group).collect()

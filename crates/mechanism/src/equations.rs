@@ -13,7 +13,7 @@
 //! the scalar trait: dual numbers give the derivatives that an implicit solver needs. Dry friction, stops, contacts
 //! and drives are not in f.
 
-use crate::grouping::join_sharing;
+use crate::grouping::{Indices, join_sharing};
 use crate::interaction::System;
 use crate::placed::MAX_CHAIN;
 use crate::system::{Body, Motion, Pose};
@@ -24,9 +24,9 @@ use num_dual::Dual64;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coupled {
     /// In increasing order.
-    pub coordinates: Vec<usize>,
+    pub coordinates: Indices,
     /// Indices into [`crate::Forces::masses`].
-    pub masses: Vec<usize>,
+    pub masses: Indices,
     /// For each mass the places of its chain's coordinates in `coordinates`.
     places: Vec<[usize; MAX_CHAIN]>,
 }
@@ -225,7 +225,7 @@ impl System {
 /// The coordinates that masses tie together, group by group in the order of their first coordinates.
 pub(crate) fn coupled(system: &System) -> Vec<Coupled> {
     let chain = |k: usize| system.bodies[system.forces.masses[k].body].chain.iter().take(MAX_CHAIN);
-    let sets = (0..system.forces.masses.len()).map(|k| (chain(k).map(|j| j.coordinate).collect(), vec![k]));
+    let sets = (0..system.forces.masses.len()).map(|k| (chain(k).map(|j| j.coordinate).collect(), Indices::from_slice(&[k])));
     let coupled = |(coordinates, masses)| Coupled { coordinates, masses, places: vec![] };
     let mut groups: Vec<Coupled> = join_sharing(sets).into_iter().map(coupled).collect();
     for group in &mut groups {

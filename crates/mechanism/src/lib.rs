@@ -24,7 +24,7 @@ pub use boundary::Boundary;
 pub use constraint::{Constrained, Constraint, Moving};
 pub use feature::{Cone, Feature, FeatureName, FeatureShape, features};
 pub use gap::{GapKind, GapState, gap, gap_state, misses_cone};
-pub use grouping::join_sharing;
+pub use grouping::{Indices, join_sharing};
 pub use hessian::Hessian;
 pub use hinge::{Hinge, HingeConstraint, Hinged, Hung};
 pub use interaction::{Exclusion, Interaction, System};
