@@ -69,7 +69,7 @@ impl ContactSource for DirectSearch<'_> {
             let interaction = interaction as u32;
             Descent { pair, features, interaction, relative, reach, found }.descend(0, at, 0);
         }
-        found[start..].sort_unstable_by_key(|c| c.id);
+        found[start..].sort_unstable_by_key(|c| (u64::from(c.id.first) << 32) | u64::from(c.id.second));
     }
 }
 
