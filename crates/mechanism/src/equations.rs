@@ -225,7 +225,8 @@ impl System {
 /// The coordinates that masses tie together, group by group in the order of their first coordinates.
 pub(crate) fn coupled(system: &System) -> Vec<Coupled> {
     let chain = |k: usize| system.bodies[system.forces.masses[k].body].chain.iter().take(MAX_CHAIN);
-    let sets = (0..system.forces.masses.len()).map(|k| (chain(k).map(|j| j.coordinate).collect(), Indices::from_slice(&[k])));
+    let sets = (0..system.forces.masses.len())
+        .map(|k| (chain(k).map(|j| j.coordinate).collect(), Indices::from_slice(&[k])));
     let coupled = |(coordinates, masses)| Coupled { coordinates, masses, places: vec![] };
     let mut groups: Vec<Coupled> = join_sharing(sets).into_iter().map(coupled).collect();
     for group in &mut groups {

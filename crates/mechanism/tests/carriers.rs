@@ -50,7 +50,7 @@ fn a_pawl_on_a_cam_is_a_chain_of_two_joints() {
     let centers: Vec<Motion> = chain.iter().map(|j| j.motion).collect();
     let turn = |x: f64| Motion::Turn { center: Vec2::new(x, 0.0) };
     assert_eq!(centers, [turn(0.0), turn(3.0)]);
-    assert_eq!(s.coupled.iter().map(|g| g.coordinates.clone()).collect::<Vec<_>>(), [[0, 1]]);
+    assert_eq!(s.coupled.iter().map(|g| g.coordinates.to_vec()).collect::<Vec<_>>(), [[0, 1]]);
     // The cam's own inertia is constant, the pawl's is in the masses.
     assert!(s.coordinates[0].inertia > 0.0 && s.coordinates[1].inertia == 0.0);
     let [mass] = s.forces.masses[..] else { panic!("{:?}", s.forces.masses) };

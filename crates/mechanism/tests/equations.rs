@@ -202,7 +202,7 @@ const V: [f64; 8] = [0.9, -1.3, 0.6, 0.4, 1.1, -0.5, 0.8, -0.2];
 
 #[test]
 fn coordinates_are_grouped_by_masses() {
-    let groups: Vec<Vec<usize>> = mixed().coupled.iter().map(|g| g.coordinates.clone()).collect();
+    let groups: Vec<Vec<usize>> = mixed().coupled.iter().map(|g| g.coordinates.to_vec()).collect();
     // 3 joins what hangs on 0 with what hangs on 4; 6 feels gravity alone; 7 flies in closed form.
     assert_eq!(groups, [vec![0, 1, 2, 3, 4, 5], vec![6]]);
 }
