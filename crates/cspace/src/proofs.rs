@@ -3,7 +3,7 @@
 use crate::around::Around;
 use crate::crossing::Crossed;
 use crate::region::Regions;
-use crate::witness::Witnesses;
+use crate::witness::{Overlapped, Witnesses};
 
 /// Proofs are looked for in proportion to the feature pairs that one would save, and to how often it was found lately: so
 /// many pairs of tree nodes for each feature pair at certain success. Crossing boundaries first,
@@ -38,6 +38,7 @@ pub(crate) struct Proofs<'a> {
     regions: &'a Regions,
     witnesses: &'a Witnesses,
     crossed: Crossed,
+    overlapped: Overlapped,
     crossings: Success,
     discs: Success,
 }
@@ -45,7 +46,14 @@ pub(crate) struct Proofs<'a> {
 impl<'a> Proofs<'a> {
     pub fn new(regions: &'a Regions, witnesses: &'a Witnesses) -> Self {
         let (crossings, discs) = (Success(AT_FIRST), Success(AT_FIRST));
-        Proofs { regions, witnesses, crossed: Crossed::default(), crossings, discs }
+        Proofs {
+            regions,
+            witnesses,
+            crossed: Crossed::default(),
+            overlapped: Overlapped::default(),
+            crossings,
+            discs,
+        }
     }
 
     /// Do boundaries cross throughout? Worth the more, the more pairs of nodes may touch in the box.
@@ -57,6 +65,6 @@ impl<'a> Proofs<'a> {
     /// Do discs inside overlap throughout? Worth the more, the more feature pairs may touch in the box.
     pub fn overlap(&mut self, around: &Around, pairs: usize) -> bool {
         let effort = self.discs.effort(DISCS, pairs);
-        self.discs.learn(self.witnesses.blocked(around, 0.0, effort))
+        self.discs.learn(self.witnesses.blocked_again(around, effort, &mut self.overlapped))
     }
 }

@@ -1,6 +1,7 @@
 //! Discs inside bodies: two of them that overlap by more than a cell's motion prove the whole cell blocked.
 
 use crate::around::Around;
+use crate::recent::Recent;
 use crate::region::Regions;
 use crate::section::Section;
 use crate::span::Span;
@@ -112,17 +113,40 @@ impl Witnesses {
     /// Is every configuration of the box surely blocked, by more than `depth` (a length)? A disc's centre moves by at most its
     /// lever times the half width. False, after looking at `effort` pairs of tree nodes or all, means nothing.
     pub fn blocked(&self, around: &Around, depth: f64, effort: usize) -> bool {
-        self.facing
-            .iter()
-            .any(|&(i, j)| overlap([&self.inside[0][i], &self.inside[1][j]], around, depth, effort))
+        (0..self.facing.len()).any(|f| overlap(self.trees(f), around, depth, effort).is_some())
+    }
+
+    /// The same; discs that overlapped in other boxes are tried first.
+    pub fn blocked_again(&self, around: &Around, effort: usize, overlapped: &mut Overlapped) -> bool {
+        let apart = |&(f, (i, j)): &(usize, (u32, u32))| {
+            let [a, b] = self.trees(f);
+            least_apart(around, &a.nodes[i as usize], &b.nodes[j as usize])
+        };
+        if overlapped.iter().any(|discs| apart(discs) < 0.0) {
+            return true;
+        }
+        for f in 0..self.facing.len() {
+            if let Some(discs) = overlap(self.trees(f), around, 0.0, effort) {
+                overlapped.remember((f, discs));
+                return true;
+            }
+        }
+        false
+    }
+
+    fn trees(&self, facing: usize) -> [&Discs; 2] {
+        let (i, j) = self.facing[facing];
+        [&self.inside[0][i].tree, &self.inside[1][j].tree]
     }
 }
 
-/// Is there a pair of discs that overlap throughout the box? Most promising nodes first.
-fn overlap(inside: [&Inside; 2], around: &Around, depth: f64, effort: usize) -> bool {
-    let trees = inside.map(|s| &s.tree);
+/// Discs that overlapped throughout boxes lately, by pair of sections: likely to do so in the next one too.
+pub(crate) type Overlapped = Recent<(usize, (u32, u32))>;
+
+/// A pair of discs that overlap throughout the box, if one is found. Most promising nodes first.
+fn overlap(trees: [&Discs; 2], around: &Around, depth: f64, effort: usize) -> Option<(u32, u32)> {
     if trees.iter().any(|t| t.nodes.is_empty()) {
-        return false;
+        return None;
     }
     let least = |(i, j): (u32, u32)| {
         least_apart(around, &trees[0].nodes[i as usize], &trees[1].nodes[j as usize]) + depth
@@ -130,12 +154,12 @@ fn overlap(inside: [&Inside; 2], around: &Around, depth: f64, effort: usize) -> 
     let mut pending = Vec::with_capacity(PENDING);
     pending.push((least((0, 0)), (0, 0)));
     for _ in 0..effort {
-        let Some((apart, (i, j))) = pending.pop() else { return false };
+        let (apart, (i, j)) = pending.pop()?;
         if apart >= 0.0 {
             continue;
         }
         if trees[0].nodes[i as usize].leaf && trees[1].nodes[j as usize].leaf {
-            return true;
+            return Some((i, j));
         }
         let mut next = Discs::halved(trees, (i, j)).map(|pair| (least(pair), pair));
         if next[0].0 < next[1].0 {
@@ -143,7 +167,7 @@ fn overlap(inside: [&Inside; 2], around: &Around, depth: f64, effort: usize) -> 
         }
         pending.extend(next);
     }
-    false
+    None
 }
 
 /// The least that discs under two nodes can be apart, in the worst configuration of the box.
