@@ -41,7 +41,7 @@ pub fn predict(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<PredictionResult, Error> {
     check_prediction(&options.search)?;
-    let system = Arc::new(mechanism.system()?);
+    let system = mechanism.kept_system()?;
     let source = options.source.source(&system);
     let (contact, rtol) = options.contact.resolve(&system)?;
     let options = PredictOptions { contact, rtol, ..options.search.clone() };

@@ -98,7 +98,7 @@ pub fn simulate(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<SimulationResult, Error> {
     check_simulation(options)?;
-    let system = Arc::new(mechanism.system()?);
+    let system = mechanism.kept_system()?;
     let source = options.search.source(&system);
     let (contact, rtol) = options.contact.resolve(&system)?;
     let limits = Options { until: options.until, rtol, max_steps: options.max_steps };

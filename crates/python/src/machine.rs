@@ -9,6 +9,7 @@ use mainspring::{
     parameters_json, predict, simulate,
 };
 use pyo3::prelude::*;
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -74,10 +75,13 @@ impl PyMachine {
 pub struct PyMechanism(Mechanism);
 
 impl PyMechanism {
-    fn started(&self, positions: &Values, velocities: &Values) -> PyResult<Mechanism> {
+    fn started(&self, positions: &Values, velocities: &Values) -> PyResult<Cow<'_, Mechanism>> {
+        if positions.is_empty() && velocities.is_empty() {
+            return Ok(Cow::Borrowed(&self.0));
+        }
         let positions = by_index(&self.0, positions, "--position")?;
         let velocities = by_index(&self.0, velocities, "--velocity")?;
-        self.0.starting_at(&positions, &velocities).map_err(bad_input)
+        self.0.starting_at(&positions, &velocities).map(Cow::Owned).map_err(bad_input)
     }
 }
 

@@ -173,6 +173,7 @@ fn assemble(
         primitives,
         tolerance,
         shapes: OnceLock::new(),
+        whole: OnceLock::new(),
     })
 }
 

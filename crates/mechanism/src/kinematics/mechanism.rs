@@ -121,6 +121,8 @@ pub struct Mechanism {
     pub(crate) tolerance: f64,
     /// What [`Mechanism::system_of_shapes`] made, once it was asked.
     pub(crate) shapes: OnceLock<Arc<System>>,
+    /// What [`Mechanism::kept_system`] made.
+    pub(crate) whole: OnceLock<Arc<System>>,
 }
 
 impl Mechanism {

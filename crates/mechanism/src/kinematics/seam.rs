@@ -23,6 +23,18 @@ impl Mechanism {
         Ok(System::new(coordinates, bodies, &self.exclusions(), self.size).with_forces(forces))
     }
 
+    /// The same, made once.
+    ///
+    /// # Errors
+    /// As [`Mechanism::system`].
+    pub fn kept_system(&self) -> Result<Arc<System>, Error> {
+        if let Some(made) = self.whole.get() {
+            return Ok(made.clone());
+        }
+        let made = Arc::new(self.system()?);
+        Ok(self.whole.get_or_init(|| made).clone())
+    }
+
     /// One coordinate for each subsystem, with inertia, friction, springs and constant forces seen at its root.
     /// Parts on chains of two joints or more have their inertia in [`Mechanism::forces`].
     ///

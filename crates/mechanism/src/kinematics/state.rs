@@ -7,6 +7,7 @@ use super::reach::{Parts, Placed};
 use super::subsystems::Hold;
 use mainspring_geometry::Csg;
 use mainspring_model::Error;
+use std::sync::OnceLock;
 
 /// A part's joint position or velocity, in radians or the file's length.
 pub type PartValue = (usize, f64);
@@ -30,6 +31,9 @@ impl Mechanism {
     /// stop, parts that overlap in the new positions.
     pub fn starting_at(&self, positions: &[PartValue], velocities: &[PartValue]) -> Result<Self, Error> {
         let mut moved = self.clone();
+        if !(positions.is_empty() && velocities.is_empty()) {
+            moved.whole = OnceLock::new();
+        }
         moved.set_all(positions, "position", |p| &mut p.position)?;
         moved.set_all(velocities, "velocity", |p| &mut p.velocity)?;
         if !positions.is_empty() {
