@@ -63,7 +63,8 @@ impl Gap {
     /// A lower bound of the only positive root of p, where p is concave as far as it falls.
     fn concave(&self, jerk: f64, longest: f64) -> f64 {
         let Self { gap: g, rate: s, acceleration: a } = *self;
-        let p = |d: f64| g + d * (s + d * (0.5 * a - jerk * d / 6.0));
+        let (half, sixth) = (0.5 * a, jerk / 6.0);
+        let p = |d: f64| g + d * (s + d * (half - sixth * d));
         if p(longest) > 0.0 {
             return longest;
         }
@@ -77,15 +78,16 @@ impl Gap {
         }
         // From the right Newton's steps stay beyond the root, from the left a chord's stay before it.
         for _ in 0..3 {
-            let slope = s + right * (a - 0.5 * jerk * right);
+            let slope = s + right * (a - 3.0 * sixth * right);
             let next = right - p(right) / slope;
             if !(slope < 0.0 && next < right && next > left) {
                 break;
             }
             right = next;
         }
+        let below = p(right);
         for _ in 0..2 {
-            let (above, below) = (p(left), p(right));
+            let above = p(left);
             if below >= 0.0 || above <= 0.0 {
                 break;
             }

@@ -7,6 +7,8 @@
 //! ```
 //! This form keeps full accuracy when the equilibrium f/k lies far away or k vanishes.
 
+use mainspring_geometry::Scalar;
+
 /// Position and velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
@@ -107,7 +109,7 @@ impl Flight {
         let square = w - a * a;
         let omega = square.abs().sqrt();
         if square > 0.0 && omega * tau > 1e-3 {
-            let (sin, cos) = (omega * tau).sin_cos();
+            let (sin, cos) = (omega * tau).sine_and_cosine();
             let decay = (-a * tau).exp();
             let s = decay * sin / omega;
             let c = decay * cos;

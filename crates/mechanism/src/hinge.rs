@@ -3,7 +3,7 @@
 
 use crate::constraint::{Constraint, Shapes};
 use crate::system::{Body, Joint, Motion, Pose};
-use mainspring_geometry::Vec2;
+use mainspring_geometry::{Scalar, Vec2};
 
 /// How a body on one joint or none moves.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +66,7 @@ impl Hinge {
     #[inline]
     pub fn at(&self, q: f64, v: f64) -> Hung {
         if self.turns {
-            let (sin, cos) = (self.ratio * q).sin_cos();
+            let (sin, cos) = (self.ratio * q).sine_and_cosine();
             let turning = self.ratio * v;
             let slopes = (self.ratio, Vec2::default());
             return Hung { cos, sin, place: self.center, turning, sliding: Vec2::default(), slopes };

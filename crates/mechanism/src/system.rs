@@ -86,7 +86,7 @@ impl<S: Scalar> Pose<S> {
 
     /// A turn about the origin by an angle in radians.
     pub fn turn(angle: S) -> Self {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = angle.sine_and_cosine();
         let zero = S::constant(0.0);
         Self { cos, sin, shift: Vec2::new(zero, zero) }
     }
