@@ -1,6 +1,7 @@
 """The film of a run: degenerate lengths, and samples where something happens."""
 
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -24,9 +25,15 @@ def test_a_run_that_never_moves_has_a_page(mechanism, simulation):
         def contacts(self, _t):
             return []
 
+        class _run:  # noqa: N801 - the core's run, without events
+            @staticmethod
+            def json(_timing):
+                return json.dumps(json.loads(simulation.to_json()) | {"events": []})
+
     still = dataclasses.replace(
-        simulation, t=0.0, events=(), kinetic_energy_minima=(), status="at_rest", trajectory=Still()
+        simulation, t=0.0, kinetic_energy_minima=(), status="at_rest", trajectory=Still()
     )
+    assert still.events == ()
     text = page(mechanism, still)
     assert "at rest" in text
     assert "NaN" not in text

@@ -146,6 +146,9 @@ class Run:
     def json(self, timing: bool) -> str:
         """Return the object that `simulate --json` prints."""
 
+    def brief_json(self) -> str:
+        """Return the same without its long lists, events and forces."""
+
     def times(self) -> NDArray[np.float64]:
         """Return the accepted step and event times, `(n,)`."""
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
-from mainspring.result import Result, frozen, parse
+from mainspring.result import Result, Written, frozen, parse
 
 T = TypeVar("T", bound=Result)
 
@@ -12,7 +12,7 @@ Constants = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Comparison(Result, Generic[T]):
+class Comparison(Written, Generic[T]):
     """Both answers and how far they are apart; `status` is `agree` or `differ`.
 
     Attributes

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mainspring.machine import Mechanism
-from mainspring.result import Result, frozen, parse
+from mainspring.result import Written, frozen, parse
 
 Point = tuple[float, float, float]
 
@@ -150,7 +150,7 @@ class Mark:
 
 
 @dataclass(frozen=True)
-class Kinematics(Result):
+class Kinematics(Written):
     """How a machine can move; lengths in the file's unit, `status` is `complete`."""
 
     parts: tuple[str, ...]

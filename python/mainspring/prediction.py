@@ -7,7 +7,7 @@ from typing import Any, Literal, overload
 from mainspring import _core
 from mainspring.comparison import Comparison, Constants, comparison_of
 from mainspring.machine import Mechanism
-from mainspring.result import Result, frozen, pairs_of, parse
+from mainspring.result import Written, frozen, pairs_of, parse
 from mainspring.simulation import Simulation, result_of
 
 MAX_MINIMA = 1000
@@ -39,7 +39,7 @@ class Hypothesis:
 
 
 @dataclass(frozen=True)
-class Prediction(Result):
+class Prediction(Written):
     """What will happen; `status` is `repeats`, `comes_to_rest`, `no_pattern` or `stopped`.
 
     Attributes

@@ -2,6 +2,7 @@
 
 import html
 import json
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -9,7 +10,7 @@ from typing import Any
 
 
 @dataclass(frozen=True)
-class Result:
+class Result(ABC):
     """A frozen answer.
 
     Attributes
@@ -22,14 +23,13 @@ class Result:
 
     status: str
     stats: Mapping[str, Any]
-    _text: str = field(repr=False)
 
+    @abstractmethod
     def to_json(self) -> str:
         """Return the whole result as one JSON object, as the command line prints with `--json`.
 
         Keys and their order are stable (docs/guide/json.md); radians and the file's units.
         """
-        return self._text
 
     def _sentences(self) -> Iterable[str]:
         """Say the result in plain sentences."""
@@ -40,6 +40,20 @@ class Result:
         said = "".join(f"<p><strong>{html.escape(s)}</strong></p>" for s in self._sentences())
         counts = ", ".join(f"{html.escape(k)}&nbsp;{v}" for k, v in self.stats.items())
         return f"<div>{said}<p><small>{counts}</small></p></div>"
+
+
+@dataclass(frozen=True)
+class Written(Result):
+    """A frozen answer read from its JSON text."""
+
+    _text: str = field(repr=False)
+
+    def to_json(self) -> str:
+        """Return the whole result as one JSON object, as the command line prints with `--json`.
+
+        Keys and their order are stable (docs/guide/json.md); radians and the file's units.
+        """
+        return self._text
 
 
 def parse(text: str) -> dict[str, Any]:

@@ -154,6 +154,8 @@ class Simulation(Result):
         The state there, by part; radians or the file's length.
     kinetic_energy_minima
         Times of the minima that Algorithm 12 of Gelsey 1995 would count.
+    events
+        What happened at contacts, in order.
     forces
         When asked for: for each instant at which something changed, `t` and `contacts` just after it,
         as `Trajectory.contacts` gives them; else None.
@@ -166,11 +168,25 @@ class Simulation(Result):
     positions: Mapping[str, float]
     velocities: Mapping[str, float]
     kinetic_energy_minima: tuple[float, ...]
-    events: tuple[Event, ...]
     energy: Energy
-    forces: tuple[Mapping[str, Any], ...] | None
     contact: Mapping[str, float] | None
     trajectory: Trajectory
+
+    # The long lists are read when asked for: a run takes less time than they do.
+    @cached_property
+    def events(self) -> tuple[Event, ...]:
+        """What happened at contacts, in order."""
+        return tuple(map(_event_of, parse(self._text)["events"]))
+
+    @cached_property
+    def forces(self) -> tuple[Mapping[str, Any], ...] | None:
+        """Contact forces where something changed, or None if they were not asked for."""
+        found = parse(self._text).get("forces")
+        return None if found is None else tuple(map(frozen, found))
+
+    @cached_property
+    def _text(self) -> str:
+        return self.trajectory._run.json(False)
 
     def _sentences(self) -> Iterable[str]:
         yield _ENDED.get(self.status, self.status).format(f"{self.t:.6g}")
@@ -186,33 +202,23 @@ class Simulation(Result):
         return self.trajectory._run.json(True) if timing else self._text
 
 
+def _event_of(e: Mapping[str, Any]) -> Event:
+    together = tuple(map(tuple, e["moving_together"]))
+    return Event(e["t"], e["kind"], tuple(e["parts"]), e["impulse"], together, e.get("stop"))
+
+
 def result_of(run: _core.Run) -> Simulation:
     """Wrap a run of the core."""
-    text = run.json(False)
-    o = parse(text)
-    events = (
-        Event(
-            e["t"],
-            e["kind"],
-            tuple(e["parts"]),
-            e["impulse"],
-            tuple(map(tuple, e["moving_together"])),
-            e.get("stop"),
-        )
-        for e in o["events"]
-    )
+    o = parse(run.brief_json())
     return Simulation(
         status=o["status"],
         stats=frozen(o["stats"]),
-        _text=text,
         advice=o["advice"],
         t=o["t"],
         positions=frozen(o["positions"]),
         velocities=frozen(o["velocities"]),
         kinetic_energy_minima=tuple(o["kinetic_energy_minima"]),
-        events=tuple(events),
         energy=Energy(**o["energy"]),
-        forces=tuple(frozen(f) for f in o["forces"]) if "forces" in o else None,
         contact=frozen(o["contact"]) if "contact" in o else None,
         trajectory=Trajectory(tuple(run.parts), run),
     )

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from mainspring import _core
 from mainspring.drawing.space import draw_space
 from mainspring.machine import Mechanism
-from mainspring.result import Result, frozen, pairs_of, parse
+from mainspring.result import Written, frozen, pairs_of, parse
 from mainspring.space_parts import (
     Axis,
     Component,
@@ -35,7 +35,7 @@ from mainspring.space_parts import (
 
 
 @dataclass(frozen=True)
-class ConfigurationSpace(Result):
+class ConfigurationSpace(Written):
     """The configuration space of two parts; `status` is `complete`.
 
     Configurations are pairs of joint positions, in the order of `coordinates`, in radians or the file's

@@ -203,6 +203,15 @@ impl SimulationResult {
 
     /// The object that `simulate --json` prints.
     pub fn json(&self, timing: bool) -> Value {
+        self.object(timing, true)
+    }
+
+    /// The same without its long lists, events and forces.
+    pub fn brief_json(&self) -> Value {
+        self.object(false, false)
+    }
+
+    fn object(&self, timing: bool, lists: bool) -> Value {
         let run = &self.run;
         let mut object = json!({
             "status": status_word(run.status),
@@ -211,11 +220,13 @@ impl SimulationResult {
             "positions": self.of_parts(&run.q),
             "velocities": self.of_parts(&run.v),
             "kinetic_energy_minima": self.low_minima(),
-            "events": run.events.iter().map(|e| self.event(e)).collect::<Vec<_>>(),
-            "energy": self.energy(),
         });
         let entries = object.as_object_mut().expect("built as an object");
-        if self.options.forces {
+        if lists {
+            entries.insert("events".into(), run.events.iter().map(|e| self.event(e)).collect());
+        }
+        entries.insert("energy".into(), self.energy());
+        if lists && self.options.forces {
             entries.insert("forces".into(), self.forces());
         }
         if let Some(constants) = constants(&run.contact) {

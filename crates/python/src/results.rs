@@ -70,6 +70,11 @@ impl PyRun {
         self.0.json(timing).to_string()
     }
 
+    /// The same without its long lists, events and forces.
+    fn brief_json(&self) -> String {
+        self.0.brief_json().to_string()
+    }
+
     /// The accepted step and event times, `(n,)`.
     fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, self.0.times())
