@@ -173,16 +173,21 @@ class Simulation(Result):
     trajectory: Trajectory
 
     # The long lists are read when asked for: a run takes less time than they do.
-    @cached_property
+    @property
     def events(self) -> tuple[Event, ...]:
         """What happened at contacts, in order."""
-        return tuple(map(_event_of, parse(self._text)["events"]))
+        return self._lists[0]
 
-    @cached_property
+    @property
     def forces(self) -> tuple[Mapping[str, Any], ...] | None:
         """Contact forces where something changed, or None if they were not asked for."""
-        found = parse(self._text).get("forces")
-        return None if found is None else tuple(map(frozen, found))
+        return self._lists[1]
+
+    @cached_property
+    def _lists(self) -> tuple[tuple[Event, ...], tuple[Mapping[str, Any], ...] | None]:
+        o = parse(self._text)
+        forces = tuple(map(frozen, o["forces"])) if "forces" in o else None
+        return tuple(map(_event_of, o["events"])), forces
 
     @cached_property
     def _text(self) -> str:

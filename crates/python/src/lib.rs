@@ -11,9 +11,6 @@ use pyo3::prelude::*;
 use results::{PyPrediction, PyRun};
 use space::PySpace;
 
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
 /// The compiled core: numbers in the file's units and radians, text as JSON.
 #[pymodule]
 fn _core(py: Python<'_>, module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -121,7 +121,7 @@ pub struct Mechanism {
     pub(crate) tolerance: f64,
     /// What [`Mechanism::system_of_shapes`] made, once it was asked.
     pub(crate) shapes: OnceLock<Arc<System>>,
-    /// What [`Mechanism::kept_system`] made.
+    /// What [`Mechanism::kept_system`] made, once it was asked; another start state makes another.
     pub(crate) whole: OnceLock<Arc<System>>,
 }
 

@@ -8,10 +8,22 @@ use crate::interaction::{Exclusion, System};
 use crate::system::{Body, Coordinate, Motion};
 use mainspring_geometry::{Outline, Vec2};
 use mainspring_model::Error;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Greatest friction, spring constant and force over the inertia, in the file's units.
 const MAX_RATE: f64 = 1e100;
+
+/// What a cell keeps, made if it is empty.
+fn kept(
+    cell: &OnceLock<Arc<System>>,
+    make: impl FnOnce() -> Result<System, Error>,
+) -> Result<Arc<System>, Error> {
+    if let Some(made) = cell.get() {
+        return Ok(made.clone());
+    }
+    let made = Arc::new(make()?);
+    Ok(cell.get_or_init(|| made).clone())
+}
 
 impl Mechanism {
     /// Everything contact and motion need.
@@ -23,16 +35,12 @@ impl Mechanism {
         Ok(System::new(coordinates, bodies, &self.exclusions(), self.size).with_forces(forces))
     }
 
-    /// The same, made once.
+    /// The same, made once and shared.
     ///
     /// # Errors
     /// As [`Mechanism::system`].
     pub fn kept_system(&self) -> Result<Arc<System>, Error> {
-        if let Some(made) = self.whole.get() {
-            return Ok(made.clone());
-        }
-        let made = Arc::new(self.system()?);
-        Ok(self.whole.get_or_init(|| made).clone())
+        kept(&self.whole, || self.system())
     }
 
     /// One coordinate for each subsystem, with inertia, friction, springs and constant forces seen at its root.
@@ -61,12 +69,10 @@ impl Mechanism {
     /// # Errors
     /// As [`Mechanism::coordinates`], inertias and rates apart, and [`Mechanism::bodies`].
     pub fn system_of_shapes(&self) -> Result<Arc<System>, Error> {
-        if let Some(made) = self.shapes.get() {
-            return Ok(made.clone());
-        }
-        self.check_motion()?;
-        let made = Arc::new(self.system_beside_loose()?);
-        Ok(self.shapes.get_or_init(|| made).clone())
+        kept(&self.shapes, || {
+            self.check_motion()?;
+            self.system_beside_loose()
+        })
     }
 
     /// As [`Mechanism::system_of_shapes`]; nothing is asked of parts that hang on nothing.

@@ -31,9 +31,7 @@ impl Mechanism {
     /// stop, parts that overlap in the new positions.
     pub fn starting_at(&self, positions: &[PartValue], velocities: &[PartValue]) -> Result<Self, Error> {
         let mut moved = self.clone();
-        if !(positions.is_empty() && velocities.is_empty()) {
-            moved.whole = OnceLock::new();
-        }
+        moved.whole = OnceLock::new();
         moved.set_all(positions, "position", |p| &mut p.position)?;
         moved.set_all(velocities, "velocity", |p| &mut p.velocity)?;
         if !positions.is_empty() {
