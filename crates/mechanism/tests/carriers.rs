@@ -370,6 +370,10 @@ fn another_start_must_fit_drives_and_stops() {
     assert!(refused.is_err_and(|e| e.message == "the velocity of wheel is prescribed by SPEED; expected none for it"));
     let s = m.starting_at(&[(0, 0.5)], &[]).and_then(|m| m.system()).unwrap_or_else(|e| panic!("{e}"));
     assert!(matches!(s.forces.drives[0], Some(Drive::Speed { start: 0.5, .. })));
+    let kept = |m: &Mechanism| m.kept_system().unwrap_or_else(|e| panic!("{e}"));
+    assert!(std::sync::Arc::ptr_eq(&kept(&m), &kept(&m)), "made once");
+    let moved = m.starting_at(&[(0, 0.5)], &[]).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(kept(&moved).coordinates, s.coordinates, "another start is another system");
 }
 
 /// A chain of arms, each pinned to the end of the one before.

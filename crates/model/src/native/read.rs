@@ -67,8 +67,8 @@ fn annotate(machine: &mut Machine, notes: &[ParameterNote]) -> Read<()> {
     for (parameter, note) in machine.parameters.iter_mut().zip(notes) {
         if let Some((written, stated)) = note.unit.as_deref().and_then(|u| machine.units.clash(u)) {
             let told = format!(
-                "parameter {} is in {written}, in a machine that counts in {stated}; expected {stated}, for nothing \
-                 is converted",
+                "parameter {} is in `{written}`, in a machine that counts in `{stated}`; expected `{stated}`, for \
+                 nothing is converted",
                 parameter.name
             );
             return Err(Fault::new(parameter.place, told));
