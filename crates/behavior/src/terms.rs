@@ -68,7 +68,7 @@ pub enum Fall {
 impl Fall {
     pub fn says(&self, labels: &[Label]) -> String {
         match *self {
-            Fall::Took(found, expected) => format!("took {found:.6}, expected {expected:.6}"),
+            Fall::Took(found, expected) => format!("took {found:.6} s, expected {expected:.6} s"),
             Fall::Moved(i, found, expected) => {
                 let label = &labels[i];
                 format!("{} moved by {}, expected {}", label.name, label.tell(found), label.tell(expected))
